@@ -6,11 +6,9 @@ import ctypes
 from functools import partial
 
 import numpy as np
-from llvmlite import ir
 
 from benchmarks import clock
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.vector import I64, POINTER, VOID, Code, Lanes
 
 # Independent chains hide the latency of a multiply-add (4 cycles, up to 4 at a time) and fit into 16 or 32 registers.
 WIDTHS, CHAINS, ROUNDS = (2, 4, 8), 12, 1_000_000
@@ -22,40 +20,30 @@ def flops_per_second() -> float:
 
 
 def _measured(width: int) -> float:
-    lanes = Lanes(ir.Module("peak"), width)
     kinds = [ctypes.c_int64, ctypes.c_void_p]
-    function = jit.build(f"peak, {width} lanes, {CHAINS} chains", partial(_module, lanes), "peak", kinds)
+    function = jit.build(f"peak, {width} lanes, {CHAINS} chains", partial(_module, width), "peak", kinds)
     memory = np.zeros(8 * (CHAINS + 1) * width)
     start = -memory.ctypes.data % 64 // 8  # vectors are aligned
     (seconds,) = clock.processor(partial(function, ROUNDS, memory.ctypes.data + 8 * start))
     return 2 * CHAINS * width * ROUNDS / seconds
 
 
-def _module(lanes: Lanes) -> ir.Module:
+def _module(width: int) -> str:
     """Module with a function (rounds, memory): x ← a x + a in every chain x, with a and the chains in `memory`."""
-    function = ir.Function(lanes.module, ir.FunctionType(VOID, [I64, POINTER]), "peak")
-    rounds, memory = function.args
-    entry, body, after = (function.append_basic_block(name) for name in ("entry", "body", "after"))
-    code = Code(lanes, ir.IRBuilder(entry))
-    builder = code.builder
-    a = code.load(memory).raw
-    starts = [code.load(memory, 1 + i).raw for i in range(CHAINS)]
-    builder.branch(body)
-    builder.position_at_end(body)
-    count = builder.phi(I64)
-    chains = [builder.phi(lanes.vector) for _ in starts]
-    fma = lanes.intrinsic("fma", 3)
-    results = [builder.call(fma, [x, a, a]) for x in chains]
-    following = builder.add(count, ir.Constant(I64, 1))
-    for phi, first, later in [(count, ir.Constant(I64, 0), following), *zip(chains, starts, results, strict=True)]:
-        phi.add_incoming(first, entry)
-        phi.add_incoming(later, body)
-    builder.cbranch(builder.icmp_signed("<", following, rounds), body, after)
-    builder.position_at_end(after)
-    for i, result in enumerate(results):
-        builder.store(result, code.vector_at(memory, 1 + i)).align = lanes.size
-    builder.ret_void()
-    return lanes.module
+    v, fma, chains = f"<{width} x double>", f"@llvm.fma.v{width}f64", range(CHAINS)
+    places = [f"%p{i} = getelementptr {v}, ptr %memory, i64 {i + 1}" for i in chains]
+    starts = [f"%x{i} = load {v}, ptr %p{i}, align {8 * width}" for i in chains]
+    joins = [f"%y{i} = phi {v} [ %x{i}, %entry ], [ %z{i}, %body ]" for i in chains]
+    rounds = [f"%z{i} = call {v} {fma}({v} %y{i}, {v} %a, {v} %a)" for i in chains]
+    ends = [f"store {v} %z{i}, ptr %p{i}, align {8 * width}" for i in chains]
+    lines = [
+        f"declare {v} {fma}({v}, {v}, {v})", "define void @peak(i64 %rounds, ptr %memory) {", "entry:",
+        f"%a = load {v}, ptr %memory, align {8 * width}", *places, *starts, "br label %body", "body:",
+        "%count = phi i64 [ 0, %entry ], [ %next, %body ]", *joins, *rounds, "%next = add i64 %count, 1",
+        "%more = icmp slt i64 %next, %rounds", "br i1 %more, label %body, label %after", "after:", *ends,
+        "ret void", "}",
+    ]  # fmt: skip
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ def turned(forces, period, vehicle=VEHICLE, substeps=20):
 def found(delay, *, wrong=1.0, noise=0.0, signal=busy, period=0.002):
     """The delays estimated along a flight whose commands act `delay` (s) late, moments `wrong` times as large."""
     estimator = made(period=period)
-    step, memory = as_numpy(estimator.find()), estimator.begun(HOVER)
+    step, memory = as_numpy(estimator.find()), estimator.begin(HOVER)
     omegas = turned(lambda t: HOVER + wrong * (signal(np.maximum(t - delay, 0)) - HOVER), period)
     omegas = omegas + noise * np.random.default_rng(0).standard_normal(omegas.shape)
     delays = []
@@ -119,7 +119,7 @@ def test_what_is_predicted_is_where_the_vehicle_is_when_its_command_acts():
     """Without lag left and with the delay known, against small steps of the same equations."""
     delay = 0.04
     estimator = DelayEstimator(Believed.numbers(VEHICLE), delay, 0.02, 0.002, 0.0)
-    find, carry, memory = as_numpy(estimator.find()), as_numpy(estimator.carry()), estimator.begun(busy(np.zeros(1))[0])
+    find, carry, memory = as_numpy(estimator.find()), as_numpy(estimator.carry()), estimator.begin(busy(np.zeros(1))[0])
     engine = EquationsEngine(VEHICLE.replace(rotor_lag=0.0))
     engine.reset(fp.State(y=(0.0, 0.6, 0.8), omega=(1.0, -2.0, 0.5)).packed(), HOVER)
     states, predicted = [], []

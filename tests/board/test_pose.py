@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from flypend.board import pose
 from flypend.compile.numeric import as_numpy
+from flypend.plants.sensing import NOTHING
 
 PERIOD, FRAMES, GRAVITY = 1e-3, 10, 9.81
 BIAS = np.array([0.01, -0.01, 0.005])  # rad/s
@@ -35,7 +36,8 @@ def moved(steps, seed=1, spin=12.0):
 def followed(motion, *, late=0, noise=0.0, turned=0.0, bias=0.0, seen=lambda i: True):
     """Memories (n, 19), with poses of so much noise (m, rad) that arrive `late` periods after they were taken."""
     x, _, R, gyro, force = motion
-    track, memory = as_numpy(pose.tracking(PERIOD, GRAVITY)), np.array(pose.unseen()).ravel()
+    track, memory = as_numpy(pose.tracking(PERIOD, GRAVITY)), np.zeros(pose.RECORD.length)
+    memory[pose.RECORD.place("R")], memory[-1] = np.eye(3).ravel(), NOTHING
     rng, found = np.random.default_rng(0), []
     for i in range(len(x)):
         fresh = i % FRAMES == 0 and i >= late and seen(i)

@@ -3,12 +3,10 @@
 import casadi as ca
 import numpy as np
 import pytest
-from llvmlite import ir
 from programs import program_of
 from test_vector import compiled, run
 
-from flypend.compile.llvm.emit import emit, with_inverse_roots
-from flypend.compile.llvm.vector import Lanes
+from flypend.compile.llvm.emit import Lanes, Module, emit, with_inverse_roots
 
 FAR = 1e5  # rad, up to which compile/loops/elementary.hpp does without the C library
 LONG = np.longdouble  # 64 bits of mantissa: its own error is a thousandth of what is measured here
@@ -21,15 +19,14 @@ def of_lanes(casadi_function, x, width=8):
     """The values of a CasADi function at all `x`, in rows of `width` lanes."""
     symbol = ca.SX.sym("x")
     program, _ = program_of([casadi_function(symbol)], [symbol])
-    rows, lanes = x.reshape(-1, width), Lanes(ir.Module("test"), width)
+    rows, lanes = x.reshape(-1, width), Lanes(Module(), width)
     some = min(64, len(rows))
-    function, code = lanes.function("some", 2)
-    source, target = function.args
+    code = lanes.function("some", 2)
+    source, target = code.arguments
     for row in range(some):
         ((value,),) = emit(code, program, [lambda _, row=row: code.load(source, row)])
         code.store(value, target, row)
-    code.builder.ret_void()
-    call = compiled(lanes, function, 2)
+    call = compiled(lanes, code.end(), 2)
     parts = [call([part], [(part.shape, np.float64)])[0] for part in rows.reshape(-1, some, width)]
     return np.ravel(parts)
 

@@ -12,7 +12,7 @@ from flypend.compile.llvm import runge_kutta
 from flypend.compile.llvm.loops import file_of
 from flypend.compile.llvm.random import normals
 from flypend.compile.methods import NAMES, method
-from flypend.compile.touch import LONGEST
+from flypend.compile.problem import LONGEST
 
 SOURCE = Path(flypend.__file__).parent / "compile" / "loops"
 

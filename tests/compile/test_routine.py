@@ -3,20 +3,18 @@
 import casadi as ca
 import numpy as np
 import pytest
-from llvmlite import ir
 from test_vector import compiled
 
 import flypend as fp
 from flypend.board.program import board
-from flypend.compile.llvm.emit import define_routine
-from flypend.compile.llvm.vector import Lanes
+from flypend.compile.llvm.emit import Lanes, Module, define_routine
 from flypend.compile.routine import Cell, lower_calls, stretches
 from flypend.plants.loop import Loop
 from flypend.plants.plant import PRESETS
 
 
 def run(routine, inputs, width):
-    lanes = Lanes(ir.Module("test"), width)
+    lanes = Lanes(Module(), width)
     call = compiled(lanes, define_routine(lanes, routine), len(routine.inputs) + len(routine.outputs))
     return call(inputs, [((max(1, len(cells)), width), np.float64) for cells in routine.outputs])
 
@@ -117,20 +115,20 @@ def test_a_queue_slides_through_memory_instead_of_being_copied(length):
     routine, width = lower_calls(queue(length)), 4
     assert routine.slide() == 2
     assert lower_calls(queue(1)).slide() == 0
-    lanes, size = Lanes(ir.Module("test"), width), 1 + 2 * length
+    lanes, size = Lanes(Module(), width), 1 + 2 * length
     sliding = define_routine(lanes, routine, routine.slide())
     # One function that calls it at two places of one memory, the second two vectors before the first.
-    function, code = lanes.function("both", 3)
-    memory, x, y = function.args
+    code = lanes.function("both", 3)
+    memory, x, y = code.arguments
     for place in (4, 2):
         code.call(sliding, code.vector_at(memory, place), x, code.vector_at(memory, place - 2), y)
-    code.builder.ret_void()
+    both = code.end()
     rng = np.random.default_rng(3)
     first, given = rng.normal(size=(size, width)), rng.normal(size=(2, width))
     begin = np.concatenate([np.zeros((4, width)), first])
     shapes = [((3, width), np.float64)]
     kept = []
-    call = compiled(lanes, function, 3, kept)
+    call = compiled(lanes, both, 3, kept)
     (last,) = call([begin, given], shapes)
     expected = [first[:, 0], None]
     for _ in range(2):

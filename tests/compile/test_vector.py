@@ -5,14 +5,12 @@ import ctypes
 import casadi as ca
 import numpy as np
 import pytest
-from llvmlite import ir
 from programs import evaluate, program_of
 
 import flypend as fp
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.emit import define
+from flypend.compile.llvm.emit import Lanes, Module, define
 from flypend.compile.llvm.random import PER_TICK, normals
-from flypend.compile.llvm.vector import POINTER, VOID, Lanes
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.laws.closed_loop import close_loop
@@ -25,10 +23,9 @@ def compiled(lanes, function, pointers, kept=None):
 
     To the list `kept` it adds what then stands in the memory of its inputs.
     """
-    outer = ir.Function(lanes.module, ir.FunctionType(VOID, [POINTER] * pointers), "outer")
-    builder = ir.IRBuilder(outer.append_basic_block())
-    builder.call(function, outer.args)
-    builder.ret_void()
+    outer = lanes.function("outer", pointers)
+    outer.call(function, *outer.arguments)
+    outer.end(visible=True)
     native = jit.Native(jit.compile_module(lanes.module), "outer", (ctypes.c_void_p,) * pointers)
     number = np.float64 if lanes.precision == "double" else np.float32
 
@@ -53,7 +50,7 @@ def aligned(array):
 
 
 def run(program, inputs, width, precision="double"):
-    lanes = Lanes(ir.Module("test"), width, precision)
+    lanes = Lanes(Module(), width, precision)
     call = compiled(lanes, define(lanes, program), len(program.inputs) + len(program.outputs))
     number = np.float64 if precision == "double" else np.float32
     return call(inputs, [((len(vector), width), number) for vector in program.outputs])

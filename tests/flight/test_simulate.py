@@ -232,12 +232,8 @@ def test_the_integrator_stops_at_its_step_limit(monkeypatch):
         assert 0 < run.outcome.time < 4.0
 
 
-def test_integrate_by_itself_keeps_the_start_and_counts_evaluations():
-    count = 0
-
+def test_integrate_by_itself_keeps_the_start():
     def rates(t, s):
-        nonlocal count
-        count += 1
         out = np.zeros(24)
         out[0:3] = s[3:6]
         return out
@@ -247,7 +243,6 @@ def test_integrate_by_itself_keeps_the_start_and_counts_evaluations():
     assert solution.outcome.status == "completed"
     np.testing.assert_array_equal(solution(0.0)[0], start)
     np.testing.assert_allclose(solution([1.0])[0, 0], 0.5, rtol=0, atol=1e-14)
-    assert 0 < solution.evaluations <= count
     assert solution.knots[0] == 0
     assert solution.knots[-1] == 2.0
 

@@ -10,8 +10,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import flypend as fp
-from flypend.compile.aside import call_in_thread
 from flypend.flight.kernels.stopping import StoppedError, heard, interruptible, join
+from flypend.signals.waiting import call_in_thread
 
 HEARD = 0.5  # s: what the user is promised
 CALLS = {

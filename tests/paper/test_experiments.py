@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import flypend as fp
 from flypend import paper as experiments
 from flypend.geometry import norm
+from flypend.laws.sphere import regulation
 from flypend.paper import claims, defects, experiment, experiment_names, sphere, stability, statements
 from flypend.paper.claims import SETTLED, largest_rise, pivot_acceleration, theorem_claims
 from flypend.paper.defects import DEFECTS
@@ -477,7 +478,8 @@ def test_the_printed_proportional_term_drives_to_its_own_target():
     start, rate, times = np.array([0.6, 0.0, 0.8]), np.array([0.0, 1.0, 0.0]), np.array([0.2, 0.5])
     target, aside = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
     found = sphere.track_as_printed(start, rate, lambda t: (aside, np.zeros(3), np.zeros(3)), target, times)
-    np.testing.assert_allclose(found, sphere.regulate(start, rate, target, times), atol=1e-12)
+    force = lambda _, phi, phi_dot: regulation(phi, phi_dot, target, sphere.K_P, sphere.K_D)  # noqa: E731
+    np.testing.assert_allclose(found, sphere.fly(force, start, rate, times), atol=1e-12)
 
 
 def test_the_direction_cosine_is_that_of_the_law(runs):

@@ -12,6 +12,7 @@ from PIL import Image
 import flypend as fp
 from flypend import palette
 from flypend.flight.verdict import verdict
+from flypend.pages import sketch
 from flypend.paper import experiment
 from flypend.pictures import animate, drawing, frames, lettering
 
@@ -110,7 +111,7 @@ def test_the_grid_moves_against_the_vehicle():
     for picture in pictures(rising, t):
         left = picture[80:500, 2:20].astype(int)  # beside the drawing, short of the first upright line
         rows.append(np.nonzero(np.all(np.abs(left - 212) < 25, axis=(1, 2)))[0])
-    metre = 640 * 0.665 / (2 * frames.ZOOM * drawing.reach(rising.vehicle))
+    metre = 640 * 0.665 / (2 * frames.ZOOM * sketch.reach(rising.vehicle))
     moved = rows[1].mean() - rows[0].mean() if len(rows[0]) == len(rows[1]) else np.nan
     assert moved == pytest.approx(0.1 * metre * np.cos(drawing.ELEVATION), abs=1.0)
 

@@ -20,6 +20,7 @@ import flypend as fp
 from flypend import geometry, palette
 from flypend.laws.references import circle
 from flypend.model import gravity_vector
+from flypend.pages import sketch
 from flypend.palette import RED
 from flypend.paper import experiment
 from flypend.pictures import canvas, drawing, figures
@@ -65,14 +66,14 @@ def test_the_drawing_is_the_machine(states, name):
     vehicle = fp.vehicle(name)
     thrust = np.linspace(-2, 2, 40) * vehicle.weight
     forces = np.linspace(-1, 1, 160).reshape(40, 4) * vehicle.weight
-    shape = drawing.sketch(states, vehicle, thrust, forces)
+    shape = sketch.sketch(states, vehicle, thrust, forces)
     seen = geometry.apply(np.swapaxes(states.R, -1, -2)[:, None, None], shape.discs - states.x[:, None, None])
     np.testing.assert_allclose(seen[..., 2], 0, atol=1e-12)  # the rotors turn in the plane of the body
     np.testing.assert_allclose(seen[..., :-1, :].mean(axis=2), np.tile(vehicle.rotor_positions, (40, 1, 1)), atol=1e-12)
     radii = geometry.norm(shape.discs - shape.arms[..., 1, None, :])
-    np.testing.assert_allclose(radii, drawing.disc_radius(vehicle))
+    np.testing.assert_allclose(radii, sketch.disc_radius(vehicle))
     gaps = geometry.norm(vehicle.rotor_positions[:, None] - vehicle.rotor_positions)
-    assert 2 * drawing.disc_radius(vehicle) < gaps[gaps > 0].min()  # and do not touch
+    assert 2 * sketch.disc_radius(vehicle) < gaps[gaps > 0].min()  # and do not touch
     np.testing.assert_allclose(shape.rod[:, 1] - shape.rod[:, 0], vehicle.rod_length * states.y, atol=1e-12)
     arrow = shape.thrust[:, 1] - shape.thrust[:, 0]
     share = np.clip(0.7 * thrust / vehicle.weight, -1.1, 1.1)
@@ -82,15 +83,15 @@ def test_the_drawing_is_the_machine(states, name):
     share = 0.32 / 0.7 * np.clip(0.7 * 4 * forces / vehicle.weight, -1.1, 1.1)
     np.testing.assert_allclose(arrows, (share * vehicle.rod_length)[..., None] * states.z[:, None], atol=1e-12)
     everything = [shape.bob[:, None], shape.discs.reshape(40, -1, 3), shape.thrust, shape.rotor_thrusts[..., 1, :]]
-    assert geometry.norm(np.concatenate(everything, axis=1) - states.x[:, None]).max() <= drawing.reach(vehicle) + 1e-12
+    assert geometry.norm(np.concatenate(everything, axis=1) - states.x[:, None]).max() <= sketch.reach(vehicle) + 1e-12
 
 
 def test_the_front_is_where_the_body_axis_points():
-    assert drawing.sketch(fp.State(y=(0, 0, 1)), fp.vehicle("nayak2018")).front.tolist() == [True, False, False, False]
+    assert sketch.sketch(fp.State(y=(0, 0, 1)), fp.vehicle("nayak2018")).front.tolist() == [True, False, False, False]
     vehicle = fp.vehicle("nayak2018")
     turned = np.array([[1, -1, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 0]]) * 0.2
     crossed = vehicle.replace(rotor_positions=turned)
-    assert drawing.sketch(fp.State(y=(0, 0, 1)), crossed).front.tolist() == [True, True, False, False]
+    assert sketch.sketch(fp.State(y=(0, 0, 1)), crossed).front.tolist() == [True, True, False, False]
 
 
 @pytest.mark.parametrize("frame", ["as flown, e₃ down", "turned, e₃ up"])
@@ -101,7 +102,7 @@ def test_gravity_points_down_the_screen(run, frame):
     below = geometry.dot(shown.y, gravity) / shown.vehicle.gravity * shown.vehicle.rod_length  # bob under pivot, m
     assert below.min() < -0.49
     assert below.max() > 0.49
-    shape = drawing.sketch(drawing.states_at(shown, shown.t), shown.vehicle)
+    shape = sketch.sketch(drawing.states_at(shown, shown.t), shown.vehicle)
     level = drawing.camera_for(shown, "side", elevation=0.0)
     np.testing.assert_allclose(drawing.project(level, shape.bob - shape.pivot)[:, 1], -below, atol=1e-9)
     camera = drawing.camera_for(shown, "side")
@@ -212,7 +213,7 @@ def test_arrows_are_those_of_the_forces_of_the_run(run):
     states = drawing.states_at(up, up.t[some])
     shape = drawing.sketch_at(up, up.t[some], states)
     at_pivot = dataclasses.replace(states, x=0 * states.x)
-    expected = drawing.sketch(at_pivot, up.vehicle, up.thrust[some], up.rotor_forces[some])
+    expected = sketch.sketch(at_pivot, up.vehicle, up.thrust[some], up.rotor_forces[some])
     np.testing.assert_allclose(shape.thrust, expected.thrust, atol=1e-12)
     np.testing.assert_allclose(shape.rotor_thrusts, expected.rotor_thrusts, atol=1e-12)
     assert np.ptp(up.rotor_forces) > 1  # N; they differ between rotors and in time

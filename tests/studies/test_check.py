@@ -8,9 +8,8 @@ import pytest
 import flypend as fp
 from flypend.flight.tasks import LEANS, task_starts
 from flypend.report.check import check_tables, margin_cells, task_cells, verdicts, write_check
-from flypend.studies.check import caught
+from flypend.studies.check import caught, describe_plans
 from flypend.studies.check import check as examine
-from flypend.studies.possible import describe
 
 HEHN = fp.vehicle("hehn2011")
 FEW = {"runs": 32, "duration": 8.0, "margins": False}
@@ -70,7 +69,7 @@ def test_what_a_law_cannot_do_is_planned_to_tell_law_from_vehicle():
 def test_where_there_is_no_plan_no_law_is_blamed():
     short = fp.plan_ensemble(HEHN, fp.random_starts(2, 1), duration=0.2)
     limit = "the limit may be the vehicle's, not the lqr law's"
-    assert describe(short, "lqr") == f"plans reach inverted hover from 0 of 2 random starts: {limit}"
+    assert describe_plans(short, "lqr") == f"plans reach inverted hover from 0 of 2 random starts: {limit}"
 
 
 def test_rotors_without_limits_lift_anything_and_the_lag_of_the_plant_counts():
@@ -174,7 +173,7 @@ def test_tables_and_files_hold_the_numbers(good, tmp_path):
 
 
 def test_the_figure_shows_every_margin_and_the_boundary(good):
-    from flypend.pictures.check import check_figure
+    from flypend.pictures.studies import check_figure
     from flypend.studies.margins import Margin
 
     margin = Margin("delay", "ms", 0.0, (0.0, 10.0, 20.0), (40, 39, 3), 40, np.nan, 10.0, False, False)

@@ -76,7 +76,7 @@ class SteppedBoard:
         self.predicted = (state, rotors, forces)
         command = self._steer(t + horizon.item(), state, rotors, forces)
         if stages.estimating is not None:
-            self._expecting = stages.estimating.carried(self.filtered, outside, command, self._memory)
+            self._expecting = stages.estimating.advance(self.filtered, outside, command, self._memory)
         self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
         return command
 
@@ -94,7 +94,7 @@ class _Estimating(NamedTuple):
     given: int
     forces: bool
 
-    def carried(self, filtered: Numbers, outside: Numbers, command: Numbers, memory: Numbers) -> Numbers:
+    def advance(self, filtered: Numbers, outside: Numbers, command: Numbers, memory: Numbers) -> Numbers:
         """Return the estimator's memory a period after `filtered`, under `command` and those under way in `memory`."""
         commands = np.append(command, memory[self.first :])[: self.given]
         return self.carry(filtered, outside, commands, NONE)

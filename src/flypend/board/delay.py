@@ -86,7 +86,7 @@ class DelayEstimator:
     def _spacing(self) -> float:
         return self._stride * self._period
 
-    def begun(self, rotors: Numbers) -> Numbers:
+    def begin(self, rotors: Numbers) -> Numbers:
         """Return the memory before the first step, for rotor forces (n,), N: numbers or CasADi symbols."""
         past = ca.repmat(rotors, self.depth, 1)
         still = {field.name: np.zeros(max(field.size, 1)) for field in self.record.fields}
@@ -118,18 +118,18 @@ class DelayEstimator:
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
         next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
-        phase, past = self._aged(phase, entries)
+        phase, past = self._age(phase, entries)
         kept = self.record.join({
             "begun": 1, "phase": phase, "found": found, "information": information, "omega": omega,
             "earlier": next_earlier, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
         })  # fmt: skip
         horizon = delay + self._lag_left
-        ramp = self._extended(delay, impulse, lever, rotors, command)
+        ramp = self._extend(delay, impulse, lever, rotors, command)
         wrenches = ca.horzcat(ramp.mean, ramp.change, acting)
         outputs = [ca.densify(v) for v in (kept, horizon, wrenches)]
         return ca.Function("find_delay", [memory, omega, rotors, command, b.symbols], ca.cse(outputs))
 
-    def _extended(self, delay: Scalar, impulse: Numbers, lever: Numbers, rotors: Numbers, command: Numbers) -> Ramp:
+    def _extend(self, delay: Scalar, impulse: Numbers, lever: Numbers, rotors: Numbers, command: Numbers) -> Ramp:
         """Return the wrench over delay and lag left.
 
         `impulse` and `lever` are the integrals of the wrench over the last `delay` (s) and of its age times it; after
@@ -151,11 +151,11 @@ class DelayEstimator:
         moved = cascade_step(packed, Ramp(wrenches[:, 0], wrenches[:, 1]), forces, horizon, b.vehicle)
         return ca.Function("act_later", [packed, horizon, wrenches, forces, b.symbols], [ca.cse(ca.densify(moved))])
 
-    def skipped(self) -> ca.Function:
+    def skip(self) -> ca.Function:
         """Return (memory, rotors (n,)) → memory after a period without measurement: the delay stays."""
         memory, rotors = ca.SX.sym("memory", self.record.length), ca.SX.sym("r", self._believed.rotors)
         parts = self.record.split(memory)
-        phase, past = self._aged(parts["phase"], self._entries(parts["past"], rotors))
+        phase, past = self._age(parts["phase"], self._entries(parts["past"], rotors))
         kept = self.record.join(parts | {"begun": 0, "phase": phase, "past": ca.vec(past)})
         return ca.Function("skip_delay", [memory, rotors], [ca.densify(kept)])
 
@@ -163,7 +163,7 @@ class DelayEstimator:
         """Return the forces (n, k) of the rotors now and remembered, newest first."""
         return ca.horzcat(rotors, ca.reshape(past, self._believed.rotors, self.depth))
 
-    def _aged(self, phase: Scalar, entries: Numbers) -> tuple[Scalar, Numbers]:
+    def _age(self, phase: Scalar, entries: Numbers) -> tuple[Scalar, Numbers]:
         """Return phase and remembered forces a period later: every `stride` periods the newest is remembered."""
         full = phase > self._stride - 0.5
         return ca.if_else(full, 1, phase + 1), ca.if_else(full, entries[:, :-1], entries[:, 1:])

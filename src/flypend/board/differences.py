@@ -34,7 +34,7 @@ class Differences:
         self._rotors = believed.rotors
         self.record = RECORD
 
-    def begun(self) -> ca.Function:
+    def begin(self) -> ca.Function:
         """Return (rotors (n,), estimate (24,), params) → memory before the first step."""
         rotors, state = ca.SX.sym("r", self._rotors), ca.SX.sym("s", SIZE)
         memory = RECORD.join({"state": state, "since_position": NOTHING, "since_rod": NOTHING})

@@ -178,7 +178,7 @@ def propagate(
     F[CENTRE, VELOCITY] = h * ca.SX.eye(3)
     F[VELOCITY, TURN] = -h / (M + m) * hat(force)
     F[ROD, SWING] = h * ca.SX.eye(2)
-    F[SWING, ROD] += h * ((dot(s.y, u) - dot_2(w, w)) * ca.SX.eye(2) + w @ w.T)
+    F[SWING, ROD] += h * ((dot(s.y, u) - ca.sumsqr(w)) * ca.SX.eye(2) + w @ w.T)
     F[SWING, TURN] = h * B.T @ hat(u)
     Q = ca.SX(size, size)
     for share, pull, density in ((M / (M + m), -1, densities.on_vehicle), (m / (M + m), 1, densities.on_bob)):
@@ -196,11 +196,6 @@ def propagate(
         F[SWING, FELT_BIAS] = h / vehicle.l * B.T @ s.R
         Q[FELT_BIAS, FELT_BIAS] += h * FELT_BIAS_WALK**2 * ca.SX.eye(3)
     return F @ P @ F.T + Q
-
-
-def dot_2(a: Numbers, b: Numbers) -> Scalar:
-    """Inner product of two vectors (2, 1)."""
-    return a[0] * b[0] + a[1] * b[1]
 
 
 # Rows of readings -------------------------------------------------------------------------------------------------

@@ -93,7 +93,7 @@ class Filter:
         )
         return Record("estimate", "Error-state Kalman filter.", fields)
 
-    def begun(self) -> ca.Function:
+    def begin(self) -> ca.Function:
         """Return (rotors (n,), estimate (24,), params) → memory before the first step."""
         rotors, packed = ca.SX.sym("r", self._believed.rotors), ca.SX.sym("s", SIZE)
         vehicle, s = self._believed.vehicle, State.symbolic(packed)
@@ -110,7 +110,7 @@ class Filter:
             "bias": np.zeros(3), "rejections": np.zeros(len(self.gated)),
             "felt": felt.begin(vehicle), "late": 0, "late_doubt": LATE**2,
             "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.pack(P),
-            "past": self.history.begun(rows, weight),
+            "past": self.history.begin(rows, weight),
         })  # fmt: skip
         return ca.Function("estimate_begun", [rotors, packed, self._believed.symbols], [ca.densify(memory)])
 
@@ -123,7 +123,7 @@ class Filter:
         parts, vehicle = self.record.split(memory), self._believed.vehicle
         before, frame = State.symbolic(parts["state"]), parts["frame"]
         known = ca.reshape(parts["turned"], 3, 3).T if "turned" in parts else ca.SX.eye(3)
-        settled = self._settled(parts["covariance"])
+        settled = self._settle(parts["covariance"])
         past, late = parts.get("past"), parts.get("late", 0.0)
         expected = Expected(self.sensors, self.history, readings, before, frame, known, past, late)
         if finds_latency(self.sensors):
@@ -165,7 +165,7 @@ class Filter:
         outputs = ca.cse([ca.densify(v) for v in (self.record.join(parts), s.packed(), outside)])
         return ca.Function("correct", [memory, readings, self._believed.symbols], outputs)
 
-    def _settled(self, covariance: Numbers) -> Scalar:
+    def _settle(self, covariance: Numbers) -> Scalar:
         """Return the steady variance of the attitude over the present one, at most 1; 1 where it is not measured.
 
         What is still known badly is corrected much, and that says nothing of a bias or a latency: in a Kalman filter of
@@ -225,28 +225,28 @@ class Filter:
         parts |= {
             "frame": error_state.carry_frame(parts["frame"], s.y, s_after.y),
             "covariance": error_state.pack(P),
-            "past": self._remembered(parts, s, s_after),
+            "past": self._remember(parts, s, s_after),
         }
         rest = self.record.join(parts)[self.record.place("frame").start :]
         return ca.Function("spread", [memory, outside, after, self._believed.symbols], [ca.cse(ca.densify(rest))])
 
-    def _remembered(self, parts: dict[str, Any], s: State, after: State) -> Numbers:
+    def _remember(self, parts: dict[str, Any], s: State, after: State) -> Numbers:
         """Return the past a period later; newest entries are those of the period that ends now."""
         history, past = self.history, self.history.split(parts.get("past"))
         entries = {
-            "x": history.moved(past["x"], s.x, s.x_dot, after.x, after.x_dot),
-            "y": history.moved(past["y"], s.y, s.y_dot, after.y, after.y_dot),
-            "turning": history.shifted(past["turning"], s.omega, after.omega),
-            "swinging": history.shifted(past["swinging"], s.y_dot, after.y_dot),
-            "force": [self._expected_force(s, after), *past["force"]],
+            "x": history.move(past["x"], s.x, s.x_dot, after.x, after.x_dot),
+            "y": history.move(past["y"], s.y, s.y_dot, after.y, after.y_dot),
+            "turning": history.shift(past["turning"], s.omega, after.omega),
+            "swinging": history.shift(past["swinging"], s.y_dot, after.y_dot),
+            "force": [
+                mean_force(s.x_dot, after.x_dot, s.R, after.R, self._believed.vehicle.g, self.period),
+                *past["force"],
+            ],
         }
         if history.depths["attitude"]:
             turned = ca.reshape(parts["turned"], 3, 3).T
             entries["attitude"] = [ca.vec((turned.T @ s.R).T), *past["attitude"]]
-        return history.joined(entries)
-
-    def _expected_force(self, s: State, after: State) -> Vector:
-        return mean_force(s.x_dot, after.x_dot, s.R, after.R, self._believed.vehicle.g, self.period)
+        return history.join(entries)
 
     def _gyro_gain(self) -> float:
         gyro = self.sensors.gyro

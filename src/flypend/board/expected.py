@@ -55,7 +55,7 @@ class Expected:
         self._sensors, self._history = sensors, history
         self._s, self._b, self._turned, self._past = state, b, turned, history.split(past)
         self._read = readings_record(sensors).split(readings)
-        self._fresh = {name: self._arrived(name) for name in sensors.streams}
+        self._fresh = {name: self._has_arrived(name) for name in sensors.streams}
         for name in POSES:
             if name in sensors.streams:
                 self._read[f"{name}_age"] += late
@@ -64,7 +64,7 @@ class Expected:
         """1 if the sensor `name` has a reading that is not older than the memory of the past, else 0."""
         return self._fresh[name]
 
-    def _arrived(self, name: str) -> Scalar:
+    def _has_arrived(self, name: str) -> Scalar:
         age = self._read[f"{name}_age"]
         reach = REACH if name in POSES and finds_latency(self._sensors) else 0.0
         return (age >= 0) * (age <= self._history.oldest(name) - reach)

@@ -94,14 +94,14 @@ class History:
             found[name] = ca.vertsplit(numbers, QUANTITIES[name][0])
         return found
 
-    def joined(self, entries: Mapping[str, Sequence[Any]]) -> Numbers:
+    def join(self, entries: Mapping[str, Sequence[Any]]) -> Numbers:
         """Return the memory of `entries`, of which the oldest are dropped."""
         return self.record.join({name: ca.vertcat(*some[: self.depths[name]]) for name, some in entries.items()})
 
-    def begun(self, attitude: Numbers, force: Vector) -> Numbers:
+    def begin(self, attitude: Numbers, force: Vector) -> Numbers:
         """Return the memory at rest in `attitude` (9,) by rows under a specific `force` (3,), body frame, m/s²."""
         still = {"attitude": attitude, "force": force}
-        return self.joined(
+        return self.join(
             {name: [still.get(name, np.zeros(QUANTITIES[name][0]))] * depth for name, depth in self.depths.items()}
         )
 
@@ -113,7 +113,7 @@ class History:
             found = found + weight * entry
         return found
 
-    def moved(
+    def move(
         self, entries: Sequence[Any], begin: Vector, begin_rate: Vector, end: Vector, end_rate: Vector
     ) -> list[Vector]:
         """Return the entries of W after a period in which a quantity went from `begin` to `end`, with those rates."""
@@ -121,7 +121,7 @@ class History:
         change = self.period * (end_rate - begin_rate)
         return [gained, *(entry + gained + (i + 1) * change for i, entry in enumerate(entries))]
 
-    def shifted(self, entries: Sequence[Any], begin: Vector, end: Vector) -> list[Vector]:
+    def shift(self, entries: Sequence[Any], begin: Vector, end: Vector) -> list[Vector]:
         """Return the entries of a rate, less its present value, after a period in which it changed so."""
         change = begin - end
         return [change, *(entry + change for entry in entries)]

@@ -75,9 +75,3 @@ def tracking(period: float, gravity: float) -> ca.Function:
         }
     )
     return ca.Function("track_pose", [memory, position, attitude, age, gyro, force], [ca.densify(after)])
-
-
-def unseen() -> ca.DM:
-    """Return the memory (19,) before the first pose."""
-    still = {name: ca.DM.zeros(3) for name in ("x", "x_dot", "omega")}
-    return RECORD.join({**still, "R": ca.vec(ca.DM.eye(3)), "since": NOTHING})

@@ -117,10 +117,10 @@ def initial_memory(loop: Loop, rotors: Numbers, estimate: Numbers = None, believ
     begun = {"rotors": rotors, "observer": np.zeros(observing.RECORD.length)}
     begun["commands"] = ca.vertcat(*[idle_command(loop, rotors)] * _under_way(loop))
     if made.finding is not None:
-        begun["delay"] = made.finding.begun(rotors)
+        begun["delay"] = made.finding.begin(rotors)
     if made.estimator is not None:
         symbols = made.believed.symbols
-        begun["estimate"] = made.estimator.begun()(rotors, estimate, symbols if symbols.numel() else [])
+        begun["estimate"] = made.estimator.begin()(rotors, estimate, symbols if symbols.numel() else [])
     memory = made.memory.join(begun)
     return memory if isinstance(rotors, ca.SX) else memory.full().ravel()
 
@@ -297,7 +297,7 @@ def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     if made.observes:
         after["observer"] = ca.vertcat(ca.MX(ca.DM.zeros(1)), after["observer"][1:])
     if made.finding is not None:
-        after["delay"] = made.finding.skipped()(after["delay"], after["rotors"])
+        after["delay"] = made.finding.skip()(after["delay"], after["rotors"])
     after |= {
         "rotors": _advance_rotors(loop, believed, after["rotors"], under_way), "commands": ca.vertcat(*under_way[:-1])
     }  # fmt: skip

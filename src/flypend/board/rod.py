@@ -63,8 +63,3 @@ def tracking(period: float) -> ca.Function:
         }
     )
     return ca.Function("track_rod", [memory, told, age, force, length], [ca.densify(after)])
-
-
-def unseen() -> ca.DM:
-    """Return the memory (7,) before the first direction."""
-    return RECORD.join({"y": ca.DM([0, 0, -1]), "y_dot": ca.DM.zeros(3), "since": NOTHING})

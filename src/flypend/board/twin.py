@@ -66,10 +66,10 @@ class Twin:
         lengths = [round(1e9 * segment.duration) for segment in segments]  # ns: one function up to roundoff
         name = "_".join([self._name, *(f"{len(list(same))}x{length}" for length, same in groupby(lengths))])
         if name not in self._steps:
-            self._steps[name] = self._made(name, [length / 1e9 for length in lengths])
+            self._steps[name] = self._make(name, [length / 1e9 for length in lengths])
         return self._steps[name]
 
-    def _made(self, name: str, durations: Sequence[float]) -> ca.Function:
+    def _make(self, name: str, durations: Sequence[float]) -> ca.Function:
         believed, n = self._believed, self._believed.rotors
         packed, rotors, forces = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("F", 6)
         commands = ca.SX.sym("u", n * len(durations))

@@ -8,6 +8,7 @@ import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,7 +50,6 @@ from flypend.cli.terminal import (
     draw,
     import_in_background,
     lacking,
-    pictures_of_studies,
     say,
     tell_how,
 )
@@ -296,7 +296,7 @@ def compare(
     drawn = list(within_bands(machine, asked, chosen.seed).values()) if bands else []
     for folder in (out, keep) if keep is not None else (out,):
         check_writable(folder)
-    import_in_background(pictures_of_studies)
+    import_in_background(lambda: import_module("flypend.pictures.studies"))
     with counter() as tell:
         flying = lambda name, done, total: tell(f"flying {name}", done, total)  # noqa: E731
         result = fly(machine, laws, batch, duration, plant=drawn or world, progress=flying)
@@ -345,7 +345,7 @@ def ladder(
         if rung or not lacking(f"the rung {name}", partial(plant, rungs[name]))
     }
     check_writable(out)
-    import_in_background(pictures_of_studies)
+    import_in_background(lambda: import_module("flypend.pictures.studies"))
     with counter() as tell:
         result = climb(machine, laws, batch, chosen.duration, rungs=flown, progress=tell)
     write_ladder(result, settings, out)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,10 +14,14 @@ from flypend.cli.options import option, options_of, out_option, path, refuse_idl
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from flypend.flight.trajectory import Trajectory
     from flypend.model import State, Vehicle
     from flypend.planning.constraints import Constraints
     from flypend.planning.result import Plan
+
+CELLS = 10  # of the map, along each side of a hemisphere
 
 
 @dataclass(frozen=True)
@@ -165,19 +170,32 @@ def plan(
 
 
 def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints, also: Outputs) -> None:
-    """Draw the figures of a plan that was `found` from `start` with the constraints `kept`."""
-    from flypend.report.plans import draw_front, draw_plan, draw_strays
+    """Draw the figures of a plan that was `found` from `start` with the constraints `kept`.
+
+    A front shows the inverted law beside the plans, which knows nothing of constraints.
+    """
+    from flypend.files.whole import save_figure
+    from flypend.flight.simulate import simulate
+    from flypend.laws import inverted, references
+    from flypend.pictures.plans import front_figure, plan_figure, strays_figure
+    from flypend.planning.receding_horizon import nmpc
+    from flypend.studies.limit import DURATION, front, strays
+
+    def save(figure: Figure, path: Path) -> None:
+        save_figure(figure, path)
+        console.print(f"The figure is {bold(path)}.")
 
     with counter() as tell:
         if also.figure is not None:
-            draw_plan(also.figure, found, flown, kept.windows)
-            console.print(f"The figure is {bold(also.figure)}.")
+            save(plan_figure(found, flown, kept.windows), also.figure)
         if also.front is not None:
-            draw_front(also.front, found, start, kept, tell)
-            console.print(f"The figure is {bold(also.front)}.")
+            plans = front(
+                found.vehicle, start, progress=partial(tell, "planning"), target=found.target, constraints=kept
+            )
+            law = simulate(found.vehicle, inverted(references.hover(found.target)), start, DURATION)
+            save(front_figure(plans, law), also.front)
         if also.sphere is not None:
-            draw_strays(also.sphere, found, tell)
-            console.print(f"The figure is {bold(also.sphere)}.")
+            save(strays_figure(strays(found.vehicle, (inverted(), nmpc()), CELLS, tell=tell)), also.sphere)
 
 
 def _check_options(what: str | None, fly: str | None, in_c: Path | None) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,6 @@ from flypend.cli.terminal import (
     import_in_background,
     is_stepped,
     lines,
-    maps,
     resumable,
     tell_how,
 )
@@ -139,7 +139,7 @@ def draw_map(
     store = what
     if content is not None:
         store = out.with_suffix(".zarr")
-        import_in_background(maps)
+        import_in_background(lambda: import_module("flypend.pictures.maps"))
         sweep_into(store, content, workers, force)
     assert store is not None
     from flypend.pictures.maps import map_figure

@@ -129,21 +129,11 @@ def tell_how(law: Any) -> None:
         say(said)
 
 
-def import_in_background(imports: Callable[[], None]) -> None:
-    """Call `imports` in a thread. What fails there fails again, and is told, where the module is used."""
+def import_in_background(bring: Callable[[], Any]) -> None:
+    """Call `bring`, which imports, in a thread. What fails there fails again, and is told, where it is used."""
 
-    def bring() -> None:
+    def run() -> None:
         with suppress(Exception):
-            imports()
+            bring()
 
-    Thread(target=bring, daemon=True, name=imports.__name__).start()
-
-
-def pictures_of_studies() -> None:
-    """Import what draws comparisons and ladders."""
-    import flypend.pictures.studies  # noqa: F401
-
-
-def maps() -> None:
-    """Import what draws maps."""
-    import flypend.pictures.maps  # noqa: F401
+    Thread(target=run, daemon=True, name="flypend-imports").start()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from flypend.compile.problem import Touch
 from flypend.compile.program import Program
 from flypend.compile.routine import Routine
-from flypend.compile.touch import Touch
 from flypend.model.state import SIZE
 
 GUSTS = 18  # place of the first number for the gusts among the random numbers of a tick

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from flypend.compile.problem import Touch
 from flypend.compile.program import Program
-from flypend.compile.touch import Touch
 
 
 @dataclass(frozen=True)

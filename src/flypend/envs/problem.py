@@ -16,7 +16,7 @@ from flypend.envs.randomise import Randomisation, Varied
 from flypend.envs.sensing import Estimates
 from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
-from flypend.flight.kernels.touching import touch_of
+from flypend.flight.touch import touch_of
 from flypend.laws.seen import moment_action, observe_state, rotor_action, thrust_action
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE

@@ -81,7 +81,7 @@ class Estimates:
         )
         state, rotors = begin[:SIZE], begin[SIZE:]
         estimate = first_estimate(self._plant.sensors)(state, draws)
-        filtered = self._filter.begun()(rotors, estimate, [])
+        filtered = self._filter.begin()(rotors, estimate, [])
         commands = ca.vertcat(*[idle_command(self._loop, rotors)] * self._under_way)
         sensors = first_memory(self._plant.sensors, 1 / self._plant.rate, state, draws)
         memory = self.record.join(

@@ -17,7 +17,7 @@ from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import interface
-from flypend.export.room import Room, swing_up_room
+from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import staging
 from flypend.laws import BoundLaw, Law

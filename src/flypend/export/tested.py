@@ -1,21 +1,29 @@
-"""A short check of what is exported: some seconds of flights, told in the header of the C code."""
+"""What flights of an exported law show in flypend's own model: how well it flies, and how much room it takes."""
 
 from __future__ import annotations
 
 import textwrap
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from flypend.errors import InputError
 from flypend.export.source import ascii_of
+from flypend.flight.ensemble import fly_many
 from flypend.flight.feasibility import feasibility
 from flypend.flight.metrics import wilson
-from flypend.flight.tasks import fly_tasks, task_starts
+from flypend.flight.request import Flight
+from flypend.flight.tasks import TICK, fly_tasks, task_starts
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.plants import ROTORS
 
 RUNS, SEED, DURATION = 200, 1, 30.0  # s
 LEAST_RATE = 0.9
+DIRECTIONS, SWING_UP = 24, 10.0  # headings, and s of a flight for the room
+MARGIN = 1.5  # of what the model needs: for a machine that is not the model, and for PID to recover from a swing-up
+STEP = 0.5  # m, to which the room is rounded up
 
 
 @dataclass(frozen=True)
@@ -64,3 +72,54 @@ def fly_tests(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Tested:
     lines += [f"Doubtful: {doubt}" for doubt in found.doubtful]
     lines.append("Plant: rotors with limits and lag, perfect measurements. `flypend check` tells margins and more.")
     return Tested(tuple(lines), "; ".join(poor))
+
+
+class Room(NamedTuple):
+    """Room around a vehicle that hovers with the rod hanging, before a swing-up.
+
+    Parameters
+    ----------
+    height : float
+        Above the ground, m.
+    aside : float
+        In any other direction, m.
+    """
+
+    height: float
+    aside: float
+
+
+def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
+    """Return the room that `law`, called at `rate` (Hz), takes to swing the rod up on `vehicle`.
+
+    Starts hang at rest at 25 headings; vehicle and rod stay within the room with a `MARGIN`. Raises InputError for a
+    law that does not swing up from all of them.
+    """
+    starts = task_starts(vehicle, 1, SEED, DIRECTIONS).get("hanging")
+    if starts is None:
+        raise InputError("vehicle", "a mount that lets the rod hang", vehicle.mount)
+    bound = law.bind(vehicle)
+    flown = fly_many(
+        Flight(
+            vehicle=vehicle,
+            law=bound,
+            starts=starts.in_frame(bound.e3),
+            duration=SWING_UP,
+            plant=ROTORS.replace(rate=rate),
+            times=np.arange(0, SWING_UP, TICK),
+        )
+    )
+    if not flown.success.all():
+        came = f"{bound.name}: {flown.success.sum()} of {len(flown)} within {SWING_UP:g} s"
+        raise InputError("law", f"one that swings the rod up on {vehicle.name}, or a height", came)
+    assert flown.samples is not None  # since times were given
+    motion = flown.samples.in_frame(bound.e3)  # back to e₃ up
+    bob = motion.x + vehicle.l * motion.y
+    lowest = min(motion.x[..., 2].min(), bob[..., 2].min())
+    farthest = max(np.hypot(end[..., 0], end[..., 1]).max() for end in (motion.x, bob))
+    highest = max(motion.x[..., 2].max(), bob[..., 2].max())
+    return Room(_rounded(-lowest), _rounded(max(farthest, highest)))
+
+
+def _rounded(length: float) -> float:
+    return float(STEP * np.ceil(MARGIN * length / STEP))

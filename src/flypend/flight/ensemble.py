@@ -17,6 +17,7 @@ from flypend.flight.members import fly_members
 from flypend.flight.metrics import Metrics, judge, wilson
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, check_batch, some_times
 from flypend.flight.sampled import nearest_ticks
+from flypend.flight.simulate import ENGINES
 from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
@@ -25,7 +26,6 @@ from flypend.plants import AnyPlant, Sampled
 if TYPE_CHECKING:
     import xarray
 
-ENGINES = ("kernel", "scipy")
 Progress = Callable[[int, int], Any]
 
 
@@ -213,15 +213,13 @@ def fly_many(
     return _gather(flight, fly_all(flight, workers=workers, progress=progress))
 
 
-def _columns_of(flight: Flight, flown: Flown) -> dict[str, Any]:
-    """Return the fields of `Metrics` as arrays (n,), for a `flight` that a kernel has `flown`."""
-    return judge(flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance)
-
-
 def _gather(flight: Flight, flown: Flown) -> Ensemble:
+    columns = judge(
+        flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance
+    )
     samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
     return Ensemble(
-        starts=flight.starts, final=State.trusted(flown.final), **_columns_of(flight, flown), **_about(flight),
+        starts=flight.starts, final=State.trusted(flown.final), **columns, **_about(flight),
         samples=samples, wrenches=flown.samples[..., SIZE:] if flight.loop.lag and samples is not None else None,
     )  # fmt: skip
 

@@ -29,7 +29,6 @@ class Integration:
     interpolants: tuple[Callable[[Any], Any], ...]
     start: NDArray[np.float64]
     drift: NDArray[np.float64]
-    evaluations: int
     outcome: Outcome
 
     def __call__(self, t: Any) -> Any:
@@ -61,14 +60,14 @@ def integrate(
     interpolant of a step or, at the start, of none, returns a time and a reason, it ends then as collided.
     """
     if margin is not None and margin(0.0, start) <= 0:
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, margin_reason))
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), Outcome("singular", 0.0, margin_reason))
 
     if not np.all(np.isfinite(rates(0.0, start))):
         reason = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("singular", 0.0, reason))
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), Outcome("singular", 0.0, reason))
 
     if (hit := touch(None)) is not None:
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), 1, Outcome("collided", *hit))
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), Outcome("collided", *hit))
 
     knots: list[float] = [0.0]
     interpolants: list[Any] = []
@@ -96,7 +95,7 @@ def integrate(
             elif solver.status == "finished":
                 outcome = Outcome("completed", solver.t)
     drift = np.array(drifts).reshape(-1, 3)
-    return Integration(np.array(knots), tuple(interpolants), start, drift, solver.nfev, outcome)
+    return Integration(np.array(knots), tuple(interpolants), start, drift, outcome)
 
 
 def _lost(solver: DOP853, message: str | None, steps: int) -> Outcome | None:

@@ -57,11 +57,6 @@ def column_names(name: str, shape: tuple[int, ...]) -> list[str]:
     return [f"{stem}_{''.join(str(i + 1) for i in place)}" if place else stem for place in np.ndindex(shape)]
 
 
-def with_unit(name: str, unit: str) -> str:
-    """Return the header of a column in a table: `x_1 [m]`; the name alone if no unit is known."""
-    return f"{name} [{unit}]" if unit else name
-
-
 def dataframe(
     variables: Mapping[str, Variable], attributes: Mapping[str, Any], index: str, *, units: bool
 ) -> pandas.DataFrame:
@@ -82,7 +77,7 @@ def dataframe(
             raise errors.InputError("signals", "names that no column has", min(taken))
         columns |= dict(zip(names, values.reshape(len(values), len(names)).T, strict=True))
         unit |= dict.fromkeys(names, entry.attributes["units"])
-    heads = {name: with_unit(name, unit[name]) if units else name for name in columns}
+    heads = {name: f"{name} [{unit[name]}]" if units and unit[name] else name for name in columns}
     found = pandas.DataFrame(columns).rename(columns=heads).set_index(heads[index])
     found.attrs = {**attributes, "units": {heads[name]: unit[name] for name in columns}}
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -141,7 +142,7 @@ class Flight:
     def __post_init__(self) -> None:
         if len(self.starts.batch_shape) > 1:
             raise InputError("starts", "a State with one leading batch axis", f"shape {self.starts.batch_shape}")
-        put = _setter(self)
+        put = partial(object.__setattr__, self)
         put("vehicle", self.vehicle.commanded())
         put("law", bound_to(self.vehicle, self.law))
         put("duration", errors.number("duration", self.duration, above=0, at_most=LONGEST, unit="s"))
@@ -278,11 +279,6 @@ class Flight:
         return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i, plant=plant)
 
 
-def _setter(record: Any) -> Any:
-    """Return a function (name, value) that sets a field of a frozen `record` during construction."""
-    return lambda name, value: object.__setattr__(record, name, value)
-
-
 def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
     """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
     if isinstance(plant, Ideal) and isinstance(law, Controller):
@@ -305,11 +301,11 @@ def check_batch(starts: State) -> None:
         raise InputError("starts", "a State with one leading batch axis", told)
 
 
-def check_judged(flight: Flight, field: str = "duration") -> None:
-    """Raise InputError in `field` unless the duration of `flight` is as long as its criterion has to hold."""
+def check_judged(flight: Flight) -> None:
+    """Raise InputError unless the duration of `flight` is as long as its criterion has to hold."""
     if flight.duration < flight.criterion.hold:
         wanted = f"at least {flight.criterion.hold:g} s, for which the criterion has to hold"
-        raise InputError(field, wanted, f"{flight.duration:g}")
+        raise InputError("duration", wanted, f"{flight.duration:g}")
 
 
 def some_times(times: ArrayLike | None) -> NDArray[np.float64] | None:

@@ -8,11 +8,11 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors, plants, signals
 from flypend.compile.numeric import as_numpy
-from flypend.compile.touch import LONGEST
+from flypend.compile.problem import LONGEST
 from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.single import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
@@ -21,7 +21,7 @@ from flypend.flight.signals import Signals
 from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import Numbers
-from flypend.laws import AnyLaw, BoundLaw, Controller
+from flypend.laws import AnyLaw, BoundLaw
 from flypend.laws.closed_loop import ClosedLoop, close_loop
 from flypend.laws.references import sample
 from flypend.model import State, Vehicle
@@ -112,22 +112,12 @@ def _ideal(flight: Flight, engine: str) -> Trajectory:
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
     packed = solution(t)
     values = np.array(loop.outputs(t[None], packed.T)).T
-    return Trajectory(
-        t=t,
-        **split(packed),
-        thrust=values[:, 0],
-        moment=values[:, 1:4],
-        rotor_forces=values[:, :4] @ flight.vehicle.unmixing(flight.law.e3).T,
-        signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)),
-        drift=solution.drift,
-        outcome=solution.outcome,
-        e3=flight.law.e3,
-        vehicle=flight.vehicle,
-        law=flight.law.name,
-        gains=dict(flight.law.gains),
-        x_ref=_reference(flight.law, t),
-        interpolant=(lambda t: solution(t)[..., :SIZE]) if flight.loop.lag else solution,
-    )
+    law, vehicle, wrench = flight.law, flight.vehicle, values[:, :4]
+    return record_run(
+        law, vehicle, t, packed, wrench, rotor_forces=wrench @ vehicle.unmixing(law.e3).T,
+        signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)), drift=solution.drift,
+        outcome=solution.outcome, interpolant=(lambda t: solution(t)[..., :SIZE]) if flight.loop.lag else solution,
+    )  # fmt: skip
 
 
 def _by_kernel(flight: Flight) -> Solution:
@@ -188,20 +178,9 @@ def _fly_sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     packed = convert_packed(samples.packed, law.e3)
-    return Trajectory(
-        t=samples.t,
-        **split(packed),
-        thrust=wrench[:, 0],
-        moment=wrench[:, 1:],
-        rotor_forces=samples.rotors,
-        signals=Signals(vehicle, law, samples.t, packed) if isinstance(law, BoundLaw) else {},
-        drift=np.zeros((0, 3)),
-        outcome=samples.outcome,
-        e3=law.e3,
-        vehicle=vehicle,
-        law=law.name,
-        gains=dict(law.gains),
-        x_ref=_reference(law, samples.t),
+    told = Signals(vehicle, law, samples.t, packed) if isinstance(law, BoundLaw) else {}
+    return record_run(
+        law, vehicle, samples.t, packed, wrench, rotor_forces=samples.rotors, signals=told, outcome=samples.outcome
     )
 
 
@@ -213,5 +192,14 @@ def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
     return fly_stepwise(flight).at(flight.moments * plant.rate)
 
 
-def _reference(law: BoundLaw | Controller, times: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    return None if law.reference is None else sample(law.reference, times)
+def record_run(law: AnyLaw, vehicle: Vehicle, t: Numbers, packed: Numbers, wrench: Numbers, **more: Any) -> Trajectory:
+    """Return the run of `vehicle` under `law` with states `packed` (n, 24) and `wrench` (n, 4) at times `t` (n,), s.
+
+    `more` are fields of `Trajectory`, which win over these; by default without drift, and with the gains of the law.
+    """
+    known = {
+        **split(packed), "thrust": wrench[:, 0], "moment": wrench[:, 1:], "drift": np.zeros((0, 3)), "e3": law.e3,
+        "law": law.name, "gains": dict(law.gains),
+        "x_ref": None if law.reference is None else sample(law.reference, t),
+    }  # fmt: skip
+    return Trajectory(t=t, vehicle=vehicle, **known | more)

@@ -9,7 +9,9 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
+from flypend.compile import problem
 from flypend.compile.numeric import as_numpy
+from flypend.compile.program import lower
 from flypend.geometry import Numbers, dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, part_names, rod_in_body
@@ -23,6 +25,14 @@ POINTS = 4
 BOUNDS = {"gimbal": np.inf, "cup": -1.0}  # `room` where it is not computed
 LANDED = "floor: "  # begins the name of what has met the floor
 NEVER = 2.0  # the share of an interval in which nothing is touched
+
+
+def touch_of(vehicle: Vehicle, e3: E3Direction, *, by_rotors: bool, floor: float | None) -> problem.Touch | None:
+    """Return what `vehicle` can touch, for kernels, None on a gimbal without a floor; arguments as in `touching`."""
+    if vehicle.mount == "gimbal" and floor is None:
+        return None
+    bound, search = (make(vehicle, e3, by_rotors=by_rotors, floor=floor) for make in (room, touching))
+    return problem.Touch(lower(bound), lower(search))
 
 
 def touching(

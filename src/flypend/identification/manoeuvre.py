@@ -27,6 +27,7 @@ STEP_TIME, STEP = 2.5, 0.4  # s between steps of the place that is held, and the
 DOUBLET_TIME, DOUBLET = 0.12, 0.6  # s of each half, and its moment over the largest that leaves hover's thrust
 # Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped.
 PLACE, ATTITUDE = 1.6, 12.0
+ACCELEROMETER = 0.1  # m/s², standard deviation of its noise
 SCALE = 0.93  # of the rotors of a rehearsal
 LONGEST = 600.0  # s, of a rehearsal; a log of more tells no more
 
@@ -54,7 +55,7 @@ def doublet(t: float) -> Any:
 
 def rehearse(
     vehicle: Vehicle, true: Vehicle, plant: Plant, *, duration: float = 60.0, latency: float = 0.0,
-    accelerometer: float = 0.1, bias: float = 0.0, seed: int = 0,
+    bias: float = 0.0, seed: int = 0,
 ) -> Rehearsal:  # fmt: skip
     """Fly the manoeuvre with the rod hanging, and log it.
 
@@ -70,8 +71,6 @@ def rehearse(
         s.
     latency : float
         By how much poses are older than the row that they stand in, s.
-    accelerometer : float
-        Standard deviation of the accelerometer's noise, m/s².
     bias : float
         Standard deviation of the gyroscope's bias, rad/s; that of the accelerometer is ten times as many m/s².
     seed : int
@@ -96,7 +95,7 @@ def rehearse(
         R = seen.R @ rotation_from_vector(noise.attitude * rng.normal(size=3))
         y = unit(seen.y + noise.y * rng.normal(size=3))
         gyro = s.omega + biases[:3] + noise.omega * rng.normal(size=3)
-        force = felt(packed, engine.rotors, gust) + biases[3:] + accelerometer * rng.normal(size=3)
+        force = felt(packed, engine.rotors, gust) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
         speed = seen.x_dot + noise.x_dot * rng.normal(size=3)
         command = _feedback(k * h, x - where[int(k * h / STEP_TIME)], speed, R, gyro, vehicle)
         rows.append([k * h, *x, *quat_xyzw_from_rotation(R)[[3, 0, 1, 2]], *gyro, *force, *y, *command])

@@ -19,10 +19,10 @@ from flypend.flight.live_engine import PERIOD
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
+from flypend.flight.simulate import record_run
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting, in_frame
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tune_loop, values
-from flypend.laws.references import sample
 from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import SIZE, E3Direction, convert_packed, split
 from flypend.plants import Sampled
@@ -145,7 +145,8 @@ def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> 
     if isinstance(machine, Stepped):
         return _step_part(flight.replace(law=machine.law), rotors)
     if isinstance(machine.kernel, SampledKernel):
-        return _fly_sampled_part(machine.kernel, gains, flight, rotors)
+        samples = sampled_samples(machine.kernel, flight, gains, rotors)
+        return _part_from(samples, flight, machine.kernel.loop.sampled)
     return _ideal_part(machine, machine.kernel, gains, flight)
 
 
@@ -164,10 +165,6 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
     wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
     rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
     return Part(t, packed, rotors, wrench, outcome)
-
-
-def _fly_sampled_part(kernel: SampledKernel, gains: Any, flight: Flight, rotors: Any) -> Part:
-    return _part_from(sampled_samples(kernel, flight, gains, rotors), flight, kernel.loop.sampled)
 
 
 def _step_part(flight: Flight, rotors: Any) -> Part:
@@ -194,22 +191,10 @@ def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: l
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )
-    law = setting.law
-    return Trajectory(
-        t=t,
-        **split(packed),
-        thrust=wrench[:, 0],
-        moment=wrench[:, 1:4],
-        rotor_forces=rotors,
-        signals=_signals(machine, gains, t, packed),
-        drift=np.zeros((0, 3)),
-        outcome=parts[-1].outcome,
-        e3=law.e3,
-        vehicle=machine.vehicle,
-        law=law.name,
-        gains=setting.gains,
-        x_ref=None if law.reference is None else sample(law.reference, t),
-    )
+    return record_run(
+        setting.law, machine.vehicle, t, packed, wrench[:, :4], rotor_forces=rotors, outcome=parts[-1].outcome,
+        signals=_signals(machine, gains, t, packed), gains=setting.gains,
+    )  # fmt: skip
 
 
 def _signals(machine: Tuned | Stepped, gains: Any, t: Any, packed: Any) -> dict[str, Any]:

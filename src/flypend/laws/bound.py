@@ -11,11 +11,10 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.geometry import Numbers, Scalar, Vector
-from flypend.laws.gain import Gain, check_gain, is_number
+from flypend.laws.gain import Gain, Tunable, is_number
 from flypend.laws.guarantee import Guarantee, list_unmodelled
 from flypend.laws.located import LawError, Located, beginning, check_finite, innermost, is_own, wrench_of
 from flypend.laws.references import Path, Reference
@@ -102,7 +101,7 @@ class Control:
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
-class BoundLaw:
+class BoundLaw(Tunable):
     """A law ready to fly: every gain has a value for one vehicle. Made by `Law.bind`.
 
     Parameters
@@ -223,13 +222,6 @@ class BoundLaw:
 
     def _along(self, path: Path) -> BoundLaw:
         return replace(self, path=path, theorem=None, certify=None)
-
-    def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-        """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
-
-        Raises InputError if `name` is not a numeric gain of the law, or a value is out of bounds.
-        """
-        return check_gain(self.table, name, values, prefix)
 
     def evaluate(
         self,

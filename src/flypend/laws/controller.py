@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.geometry import Numbers
 from flypend.laws.bound import Computer
-from flypend.laws.gain import Gain, check_gain, check_gains, is_number, table
+from flypend.laws.gain import Gain, Tunable, check_gains, is_number, table
 from flypend.laws.located import Located, is_own, wrench_of
 from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
@@ -25,7 +25,7 @@ Steering = Callable[[float, State], Wrench]
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Controller:
+class Controller(Tunable):
     """State feedback by any Python callable: not symbolic, so slower, and always sampled.
 
     Parameters
@@ -93,20 +93,9 @@ class Controller:
         """The gains whose values differ from their defaults."""
         return {name: value for name, value in self.gains.items() if value != self.table[name].default}
 
-    def propose(self, vehicle: Vehicle) -> dict[str, Any]:
-        """Default values of all gains for `vehicle`, by name."""
-        return {name: gain.value(vehicle) for name, gain in self.table.items()}
-
     def gains_for(self, _: Vehicle) -> dict[str, Any]:
         """Gain values by name, the same for every vehicle."""
         return dict(self.gains)
-
-    def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-        """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
-
-        Raises InputError if `name` is not a numeric gain of the controller, or a value is out of bounds.
-        """
-        return check_gain(self.table, name, values, prefix)
 
     def with_gains(self, given: Mapping[str, Any], prefix: str = "") -> Controller:
         """Return a copy with the gains `given`, checked like `Law.with_gains`; messages begin with `prefix`."""

@@ -121,6 +121,24 @@ class Gain:
         return f"{self.doc}{', ' + self.unit if self.unit and self.doc else self.unit}"
 
 
+class Tunable:
+    """What has a `table` of gains: a law, bound to a vehicle or not, or a controller."""
+
+    table: Mapping[str, Gain]
+
+    def propose(self, vehicle: Vehicle) -> dict[str, Any]:
+        """Default values of all gains for `vehicle`, by name, whatever is given."""
+        return {name: gain.value(vehicle) for name, gain in self.table.items()}
+
+    def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
+        """Return `values`, one or many, of gain `name` for runs that differ in it; messages begin with `prefix`.
+
+        Raises InputError if `name` is not a numeric gain, or a value is out of bounds.
+        """
+        errors.only_known(prefix, [name], [gain.name for gain in self.table.values() if gain.numeric])
+        return self.table[name].check_all(values, f"{prefix}.{name}".lstrip("."))
+
+
 def is_number(value: object) -> bool:
     """Whether `value` is a real number; booleans do not count."""
     return isinstance(value, Real) and not isinstance(value, bool)
@@ -144,15 +162,6 @@ def check_gains(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str =
     """
     errors.only_known(name, given, gains)
     return {key: gains[key].check(value, f"{name}.{key}".lstrip(".")) for key, value in given.items()}
-
-
-def check_gain(gains: Mapping[str, Gain], name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-    """Return `values`, one or many, of gain `name` for runs that differ in it; messages begin with `prefix`.
-
-    Raises InputError if `name` is not in the table `gains` or is an option, or a value is out of bounds.
-    """
-    errors.only_known(prefix, [name], [gain.name for gain in gains.values() if gain.numeric])
-    return gains[name].check_all(values, f"{prefix}.{name}".lstrip("."))
 
 
 # What is said of a law that takes nothing but gains.

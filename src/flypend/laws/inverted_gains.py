@@ -164,7 +164,6 @@ def _speed(name: str) -> Callable[[Vehicle], float]:
 
 
 ANGLE = Bounds(0.0, math.pi, open_low=True)
-HEIGHT = Bounds(-1.0, 1.0)
 
 GAINS = table(
     (

@@ -8,11 +8,9 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from numpy.typing import NDArray
-
 from flypend import errors
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
-from flypend.laws.gain import Gain, check_gain, check_gains, table
+from flypend.laws.gain import Gain, Tunable, check_gains, table
 from flypend.laws.guarantee import Guarantee
 from flypend.laws.located import is_own
 from flypend.laws.references import Path, Reference, check_reference
@@ -24,7 +22,7 @@ Values = Mapping[str, Any]
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Law:
+class Law(Tunable):
     """A symbolic state feedback with open gains.
 
     Parameters
@@ -121,22 +119,11 @@ class Law:
         """
         return replace(self, given={**self.given, **check_gains(self.gains, given, prefix)})
 
-    def check_gain(self, name: str, values: Any, prefix: str = "gains") -> NDArray[Any]:
-        """Return `values`, one or many, of gain `name`, checked; messages begin with `prefix`.
-
-        Raises InputError if `name` is not a numeric gain of the law, or a value is out of bounds.
-        """
-        return check_gain(self.gains, name, values, prefix)
-
     @property
-    def table(self) -> Mapping[str, Gain]:
+    def table(self) -> Mapping[str, Gain]:  # type: ignore[override]  # nobody sets it
         """Registry of the gains."""
         found: Mapping[str, Gain] = self.gains
         return found
-
-    def propose(self, vehicle: Vehicle) -> dict[str, Any]:
-        """Default values of all gains for `vehicle`, by name, whatever is given."""
-        return {name: gain.value(vehicle) for name, gain in self.table.items()}
 
     def gains_for(self, vehicle: Vehicle) -> dict[str, Any]:
         """Return the values of all gains by name: as given, else the default for `vehicle`.

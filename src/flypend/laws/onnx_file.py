@@ -25,59 +25,59 @@ _BY_ENTRY: Mapping[str, Callable[[Any, Any], Any]] = {
 OPERATORS = ("Gemm", "MatMul", *_BY_ENTRY, *_ACTIVATIONS, "Clip", *_AS_IS, "Constant")
 
 
-def read_onnx(path: Path, field: str = "network") -> Network:
+def read_onnx(path: Path) -> Network:
     """Return the network in the ONNX file `path`: a chain of `OPERATORS` from one input to one output.
 
     A last Clip is left out: it is that of the actions, from −1 to 1.
 
-    Raises InputError, for `field`, if onnx is not installed (extra "onnx"), there is no such file, or it holds anything
+    Raises InputError if onnx is not installed (extra "onnx"), there is no such file, or it holds anything
     else.
     """
-    errors.require("onnx", extra="onnx", for_=field)
+    errors.require("onnx", extra="onnx", for_="network")
     import onnx
 
     if not path.is_file():
-        raise InputError(field, "an ONNX file that is there", str(path))
+        raise InputError("network", "an ONNX file that is there", str(path))
     try:
         graph = onnx.load(path).graph
         constants = {one.name: onnx.numpy_helper.to_array(one) for one in graph.initializer}
     except Exception as error:  # of protobuf, of files with weights beside it, of the types of tensors
-        raise InputError(field, "an ONNX file", f"{path}: {type(error).__name__}") from None
+        raise InputError("network", "an ONNX file", f"{path}: {type(error).__name__}") from None
     given = [one.name for one in graph.input if one.name not in constants]
     if len(given) != 1 or len(graph.output) != 1:
-        raise InputError(field, "one input and one output", f"{len(given)} and {len(graph.output)} in {path}")
-    chain = _Chain(field, given[0], constants)
+        raise InputError("network", "one input and one output", f"{len(given)} and {len(graph.output)} in {path}")
+    chain = _Chain(given[0], constants)
     for node in graph.node:
         chain.add(node, {one.name: onnx.helper.get_attribute_value(one) for one in node.attribute})
     if chain.last != graph.output[0].name:
-        raise InputError(field, "operators that follow one another to the output", f"another graph in {path}")
+        raise InputError("network", "operators that follow one another to the output", f"another graph in {path}")
     return Network(chain.layers)
 
 
 class _Chain:
     """Layers, made of operators one after the other; `last` is the name of what the last one returns."""
 
-    def __init__(self, field: str, last: str, constants: dict[str, NDArray[Any]]) -> None:
-        self.field, self.last, self.constants, self.layers = field, last, constants, list[Layer]()
+    def __init__(self, last: str, constants: dict[str, NDArray[Any]]) -> None:
+        self.last, self.constants, self.layers = last, constants, list[Layer]()
         self._limited = False
 
     def add(self, node: Any, attributes: Mapping[str, Any]) -> None:
         """Add a `node` of the graph."""
-        kind = errors.one_of(f"{self.field}.operator", node.op_type, OPERATORS)
+        kind = errors.one_of("network.operator", node.op_type, OPERATORS)
         if kind == "Constant":
             import onnx
 
             self.constants[node.output[0]] = onnx.numpy_helper.to_array(attributes["value"])
             return
         if self.last not in node.input or self._limited:
-            raise InputError(self.field, "operators that follow one another", f"{kind} of something else")
+            raise InputError("network", "operators that follow one another", f"{kind} of something else")
         others = [self.constants.get(name) for name in node.input if name != self.last]
         if any(other is None for other in others):
-            raise InputError(self.field, f"constants beside the input of {kind}", "what is computed")
+            raise InputError("network", f"constants beside the input of {kind}", "what is computed")
         if kind == "Clip":
             self._limited = [float(np.ravel(other)[0]) for other in others if other is not None] == [-1.0, 1.0]
             if not self._limited:
-                raise InputError(self.field, "a Clip from −1 to 1 at the end", "another one")
+                raise InputError("network", "a Clip from −1 to 1 at the end", "another one")
         elif kind in _ACTIVATIONS:
             self._activate(_ACTIVATIONS[kind], float(attributes.get("alpha", _NUMBERS.get(kind, 1.0))))
         elif kind not in _AS_IS:
@@ -86,7 +86,7 @@ class _Chain:
 
     def _activate(self, activation: str, number: float) -> None:
         if not self.layers or self.layers[-1].activation != "identity":
-            raise InputError(self.field, f"a linear operator before {activation}", "none")
+            raise InputError("network", f"a linear operator before {activation}", "none")
         self.layers[-1] = self.layers[-1]._replace(activation=activation, number=number)
 
     def _map(self, kind: str, first: bool, others: Sequence[Any], attributes: Mapping[str, Any]) -> None:
@@ -95,7 +95,7 @@ class _Chain:
             turned = attributes.get("transA", 0) or not first
             W = np.asarray(others[0], dtype=float)
             if W.ndim != 2 or turned:
-                raise InputError(self.field, f"{kind} of a row and a matrix", "another order")
+                raise InputError("network", f"{kind} of a row and a matrix", "another order")
             W = attributes.get("alpha", 1.0) * (W if attributes.get("transB", 0) else W.T)
             b = attributes.get("beta", 1.0) * np.ravel(others[1]) if len(others) > 1 else np.zeros(len(W))
             self._append(W, np.broadcast_to(b, len(W)))
@@ -108,9 +108,9 @@ class _Chain:
             last = Layer(np.eye(len(last.b)), np.zeros(len(last.b)))
             self.layers.append(last)
         if kind == "Div" and not first:
-            raise InputError(self.field, "Div by a constant", "Div of a constant")
+            raise InputError("network", "Div by a constant", "Div of a constant")
         if value.size not in (1, len(last.b)):
-            raise InputError(self.field, f"{kind} with {len(last.b)} numbers", f"{value.size}")
+            raise InputError("network", f"{kind} with {len(last.b)} numbers", f"{value.size}")
         change = _BY_ENTRY[kind]
         if kind in ("Mul", "Div"):
             factor = np.broadcast_to(change(1.0, value), len(last.b))

@@ -63,11 +63,14 @@ def backward(w: Weights, phi: Any, kept: Any, gradient: Any, total: Weights) -> 
     return (w["W_1"].T @ d_a + w["D"].T @ d)[:, :-1]
 
 
-class Adam:
-    """The method of Kingma and Ba (2015), for a gradient no longer than `longest`; `moments` are its memory."""
+LONGEST = 5.0  # of a gradient; a longer one is shortened to it
 
-    def __init__(self, weights: Weights, longest: float = 5.0) -> None:
-        self.longest, self.count = longest, 0
+
+class Adam:
+    """The method of Kingma and Ba (2015), for a gradient no longer than `LONGEST`; `moments` are its memory."""
+
+    def __init__(self, weights: Weights) -> None:
+        self.count = 0
         self.moments = {f"{kind}{name}": np.zeros_like(array) for name, array in weights.items() for kind in "mv"}
 
     def move(self, weights: Weights, gradient: Weights, rate: float) -> float:
@@ -76,7 +79,7 @@ class Adam:
         if not np.isfinite(length):
             return length
         self.count += 1
-        share = np.float32(min(1.0, self.longest / length) if length > 0 else 1.0)
+        share = np.float32(min(1.0, LONGEST / length) if length > 0 else 1.0)
         for name, array in weights.items():
             m, v, g = self.moments["m" + name], self.moments["v" + name], share * gradient[name]
             m += np.float32(0.1) * (g - m)

@@ -1,4 +1,4 @@
-"""A vehicle as URDF, the robot description of ROS, Gazebo, Drake, Isaac and PyBullet."""
+"""A vehicle as URDF, for ROS, Drake, Isaac and PyBullet, and as SDF, for Gazebo: the same links on a ball joint."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from flypend.model.mjcf import drawn_thickness, numbers, rod_moments
 # The ring between the two axes of the joint: engines want a mass in every link that moves. As a share of the rod's
 # mass and of its moment of inertia, it moves the rod by as much less.
 RING = 1e-6
+VERSION = "1.8"  # Gazebo from Edifice on, and Drake; frames attached to links are of 1.7
 
 
 def model_urdf(vehicle: Any) -> str:
@@ -88,3 +89,35 @@ def _joint(
     SubElement(joint, "origin", xyz=numbers(place))
     if axis is not None:
         SubElement(joint, "axis", xyz=numbers(axis))
+
+
+def model_sdf(vehicle: Any) -> str:
+    """Return `vehicle` as SDF; see `Vehicle.to_sdf`."""
+    name, comment = about(vehicle)
+    sdf = Element("sdf", version=VERSION)
+    model = SubElement(sdf, "model", name=name)
+    model.append(comment)
+    for link in (add_vehicle(model, vehicle), add_rod(model, vehicle)):
+        _in_elements(link)
+        for k, visual in enumerate(link.iter("visual")):
+            visual.set("name", f"visual{k}")
+    for k, place in enumerate(vehicle.rotors_from_pivot):
+        rotor = SubElement(model, "frame", name=f"rotor{k}", attached_to="vehicle")
+        SubElement(rotor, "pose").text = f"{numbers(place)} 0 0 0"
+    pivot = SubElement(model, "joint", name="pivot", type="ball")
+    SubElement(pivot, "parent").text, SubElement(pivot, "child").text = "vehicle", "bob"
+    indent(sdf)
+    return '<?xml version="1.0"?>\n' + tostring(sdf, encoding="unicode") + "\n"
+
+
+def _in_elements(link: Element) -> None:
+    """Turn what URDF says in attributes below `link` into SDF's elements, and origins into poses."""
+    for part in [*link.iter()][1:]:
+        values, part.attrib = part.attrib, {}
+        if part.tag == "origin":
+            part.tag, part.text = "pose", f"{values['xyz']} 0 0 0"
+        elif "value" in values:
+            part.text = values["value"]
+        else:
+            for name, value in values.items():
+                SubElement(part, name).text = value

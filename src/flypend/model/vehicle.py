@@ -22,10 +22,9 @@ from flypend.model.estimate import Measured, guess
 from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
 from flypend.model.quantity import Quantity
-from flypend.model.sdf import model_sdf
 from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
-from flypend.model.urdf import model_urdf
+from flypend.model.urdf import model_sdf, model_urdf
 
 
 @errors.named_arguments

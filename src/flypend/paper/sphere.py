@@ -9,7 +9,7 @@ import numpy as np
 
 from flypend.compile.methods import method
 from flypend.geometry import cross, dot, hat_squared, scale, unit
-from flypend.laws.sphere import acceleration, regulation, tracking, velocity_error
+from flypend.laws.sphere import acceleration, tracking, velocity_error
 
 K_P, K_D = 9.0, 4.2  # 1/s², 1/s: natural frequency 3 rad/s, damping ratio 0.7
 # s. With a method of order 8, the error per step is below 1e-11 at rates of a few rad/s.
@@ -49,11 +49,6 @@ def _steps(rates: Callable[[float, Any], Any], t: float, s: Any, h: float, steps
             slopes[i] = rates(t + (number + scheme.C[i]) * h, s + h * scheme.A[i] @ slopes)
         s = s + h * scheme.B @ slopes
     return s
-
-
-def regulate(start: Any, start_rate: Any, target: Any, times: Any) -> Any:
-    """Lemma 1: regulate φ to `target` (3,) from `start`, `start_rate`; return φ (n, 3) at `times`."""
-    return fly(lambda _, phi, phi_dot: regulation(phi, phi_dot, target, K_P, K_D), start, start_rate, times)
 
 
 def track(start: Any, start_rate: Any, reference: Callable[[float], Reference], times: Any) -> Any:

@@ -18,26 +18,10 @@ from flypend import errors, geometry
 from flypend.flight.trajectory import Trajectory
 from flypend.model import State, Vehicle
 from flypend.model.state import project as project_states
-from flypend.pages import sketch as sketched
+from flypend.pages import sketch
 from flypend.pages.camera import Camera, depth, magnification, project
-from flypend.pages.sketch import BOB_SHARE, Sketch, disc_radius, reach, sketch
+from flypend.pages.sketch import BOB_SHARE, Sketch
 from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
-
-__all__ = [
-    "BOB_SHARE",
-    "Sketch",
-    "camera_for",
-    "disc_radius",
-    "draw",
-    "gravity_symbol",
-    "main_direction",
-    "outlines",
-    "reach",
-    "sketch",
-    "sketch_at",
-    "states_at",
-    "upright",
-]
 
 VIEWS = ("side", "axis")
 
@@ -81,12 +65,7 @@ def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, dist
 
 def main_direction(run: Trajectory) -> Any:
     """Horizontal unit vector (3,), e₃ up, along which the rod of `run` moves most; see `flypend.pages.sketch`."""
-    return sketched.main_direction(upright(run.states, run))
-
-
-def upright(state: State, run: Trajectory) -> State:
-    """Convert `state` from the frame of `run` to the e₃-up frame."""
-    return state.in_frame(run.e3)
+    return sketch.main_direction(run.states.in_frame(run.e3))
 
 
 def states_at(run: Trajectory, times: Any) -> State:
@@ -96,7 +75,7 @@ def states_at(run: Trajectory, times: Any) -> State:
     """
     times = np.clip(np.atleast_1d(np.asarray(times, dtype=float)), run.t[0], run.t[-1])
     if run.interpolant is not None:
-        return upright(run.at(times), run)
+        return run.at(times).in_frame(run.e3)
     last = len(run.t) - 1
     before = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, max(last - 1, 0))
     after = np.minimum(before + 1, last)
@@ -106,7 +85,8 @@ def states_at(run: Trajectory, times: Any) -> State:
     far = turned | (geometry.dot(run.y[before], run.y[after]) < 0)
     share = np.where(far, np.round(share), share)[:, None]
     packed = run.states.packed()
-    return upright(State.from_packed(project_states((1 - share) * packed[before] + share * packed[after])[0]), run)
+    between = project_states((1 - share) * packed[before] + share * packed[after])[0]
+    return State.from_packed(between).in_frame(run.e3)
 
 
 def sketch_at(run: Trajectory, times: Any, states: State) -> Sketch:
@@ -115,7 +95,7 @@ def sketch_at(run: Trajectory, times: Any, states: State) -> Sketch:
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1)).T
     forces = np.stack([np.interp(times, run.t, force) for force in rotors], axis=-1)
     centred = replace(states, x=np.zeros_like(states.x))
-    return sketch(centred, run.vehicle, sign * np.interp(times, run.t, run.thrust), forces)
+    return sketch.sketch(centred, run.vehicle, sign * np.interp(times, run.t, run.thrust), forces)
 
 
 def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float, ghosts: int = 5) -> None:
@@ -213,7 +193,7 @@ def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float)
     ax.text(x + size, y, "g", fontsize=fontsize, va="center", style="italic")
 
 
-def _arrow(ax: Any, tail: Any, tip: Any, *, zorder: float = 2.0, **style: Any) -> None:
+def _arrow(ax: Any, tail: Any, tip: Any, **style: Any) -> None:
     """Draw an arrow from `tail` (2,) to `tip` (2,), in the axes' units."""
     head = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", tip, tail, arrowprops={**head, **style}, zorder=zorder)
+    ax.annotate("", tip, tail, arrowprops={**head, **style}, zorder=2.0)

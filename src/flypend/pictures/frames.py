@@ -21,6 +21,7 @@ from flypend import geometry
 from flypend.flight.trajectory import Trajectory
 from flypend.flight.verdict import verdict
 from flypend.model import State, Vehicle
+from flypend.pages import sketch
 from flypend.pages.camera import Camera, depth, magnification, project
 from flypend.pages.sketch import Sketch
 from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED, STATES
@@ -40,7 +41,7 @@ LINE = "#d4d4d4"
 def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int, int]) -> Callable[[int, bool], Frame]:
     """Set up a picture of `size` pixels; return `render(i, ended)`, which draws the frame at `times[i]`."""
     rod = run.vehicle.rod_length
-    camera = drawing.camera_for(run, view, distance=drawing.EYE * drawing.reach(run.vehicle))
+    camera = drawing.camera_for(run, view, distance=drawing.EYE * sketch.reach(run.vehicle))
     states = drawing.states_at(run, times)
     shape = drawing.sketch_at(run, times, states)
     # A fast rod turns too far between frames for a straight line: use `finer` path points per frame.
@@ -87,7 +88,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
 def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> tuple[float, float]:
     """Set up the scene around the pivot; return half its width and height, m."""
     pixels = (size[0] * SCENE[2], size[1] * SCENE[3])
-    scale = ZOOM * drawing.reach(run.vehicle) / min(pixels)
+    scale = ZOOM * sketch.reach(run.vehicle) / min(pixels)
     half = (pixels[0] * scale, pixels[1] * scale)
     ax.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), xticks=[], yticks=[])
     ax.spines[:].set_color(LINE)
@@ -199,7 +200,7 @@ def _body(ax: Any, shape: Sketch, camera: Camera, vehicle: Vehicle) -> Part:
     """Quadrotor, thrusts, rod and bob of `shape` (n, ...), with the pivot at the centre of `camera`."""
     discs, arms = project(camera, shape.discs), project(camera, shape.arms)
     rods, behind = project(camera, shape.rod), depth(camera, shape.bob) > 0
-    radii = drawing.BOB_SHARE * vehicle.rod_length * magnification(camera, shape.bob)
+    radii = sketch.BOB_SHARE * vehicle.rod_length * magnification(camera, shape.bob)
     whole = drawing.outlines(project(camera, shape.thrust), vehicle, drawing.SUM)
     single = project(camera, shape.rotor_thrusts)
     angle = np.linspace(0, 2 * np.pi, 25)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from flypend import errors, geometry
 from flypend.flight.trajectory import Trajectory
+from flypend.pages import sketch
 from flypend.pages.camera import project
 from flypend.palette import GREEN, GREY, INK, ORANGE, RED
 from flypend.pictures import drawing
@@ -46,7 +47,7 @@ def stop_motion(run: Trajectory, count: int = 12, *, view: str = "side", style: 
     """
     form = style_of(style)
     count = int(errors.number("count", count, at_least=1))
-    reach = drawing.reach(run.vehicle)
+    reach = sketch.reach(run.vehicle)
     camera = drawing.camera_for(run, view, distance=drawing.EYE * reach)
     times = snapshot_times(run, count)
     columns = max(int(np.ceil(np.sqrt(form.wide * len(times)))), 3)

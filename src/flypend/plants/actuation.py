@@ -132,21 +132,18 @@ class Actuation:
         Nominal vehicle of the rate loop.
     plant : Plant
         Source of the interface, the limits, and the rate and gain of the rate loop.
-    step : float, optional
-        Maximum step of the engine, s; default that of the plant or of its rate loop.
     """
 
-    def __init__(self, engine: Engine, vehicle: Vehicle, plant: Plant, step: float | None = None) -> None:
+    def __init__(self, engine: Engine, vehicle: Vehicle, plant: Plant) -> None:
         self.engine = engine
         self._rates = plant.interface == "rates"
-        self._longest = step
         self._plant = plant
         if self._rates:
             self._loop = _compile_rate_loop(vehicle, plant.limits, plant.rate_loop_gain)
 
     def advance(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Hold `command` for `duration` (s) under `wind` (6,), N."""
-        steps = steps_in(duration, self._plant, self._longest)
+        steps = steps_in(duration, self._plant)
         for _ in range(steps):
             forces = self._loop(command, self.engine.packed[OMEGA], NO_SYMBOLS) if self._rates else command
             self.engine.step(forces, duration / steps, wind)

@@ -17,7 +17,7 @@ from flypend.plants.lag import symbolic_timing
 from flypend.plants.measurement import NOISE_SIZE, WIND_SIZE, wind_numbers
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Sampled, Wind
-from flypend.plants.schedule import PLANT_STEP, SAME
+from flypend.plants.schedule import SAME, longest_step
 
 # Knobs and their lengths: rotor lag and delay, s; noise, as the fields of `Noise`; where the origin is seen, m, so that
 # a law holds another place; constant forces and gusts on vehicle and bob, N; least and largest force of a rotor, N.
@@ -62,11 +62,6 @@ def turn_knobs(plant: Sampled) -> ca.Function:
     seen = [] if plant.sensors is not None else [of["noise"], of["origin"]]
     numbers = ca.vertcat(*schedule, *timings, *seen, _wind(of, plant, period), of["rotor_limits"])
     return ca.Function("turned", [knobs], [ca.cse(ca.densify(numbers))])
-
-
-def longest_step(plant: Sampled) -> float:
-    """Return the longest step of the equations through `plant`, s."""
-    return 1 / plant.rate_loop_rate if plant.interface == "rates" else PLANT_STEP
 
 
 def depth(plant: Sampled) -> int:

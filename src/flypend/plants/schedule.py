@@ -53,9 +53,14 @@ def steps_in(duration: float, plant: Plant, longest: float | None = None) -> int
     The default is the period of the rate loop, or else the step of the equations. MuJoCo substeps internally.
     """
     if longest is None:
-        own = duration if plant.engine == "mujoco" else PLANT_STEP
-        longest = 1 / plant.rate_loop_rate if plant.interface == "rates" else own
+        inside = plant.engine == "mujoco" and plant.interface != "rates"
+        longest = duration if inside else longest_step(plant)
     return max(1, int(np.ceil(duration / longest - SAME)))
+
+
+def longest_step(plant: Plant) -> float:
+    """Return the longest step of the equations through `plant`, s: the period of the rate loop, if there is one."""
+    return 1 / plant.rate_loop_rate if plant.interface == "rates" else PLANT_STEP
 
 
 def in_steps(segments: Sequence[Segment], longest: float) -> list[tuple[Segment, ...]]:

@@ -11,11 +11,10 @@ from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
-from flypend import __version__
 from flypend.files.staging import staging
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
-from flypend.report.text import markdown_table, number, write_json
+from flypend.report.text import markdown_table, number, write_report
 from flypend.studies.advice import Advice
 from flypend.studies.check import Check
 from flypend.studies.joint import Joint
@@ -103,18 +102,16 @@ def write_check(
     from flypend.files.whole import save_both
 
     with staging(out) as folder:
-        (folder / "report.md").write_text(_markdown(checks, trials, joints or {}, settings, advice), encoding="utf-8")
         content = {
-            "flypend": __version__,
             "settings": dict(settings),
             "checks": {law: check.to_dict() for law, check in checks.items()},
             "trials": {law: trial.to_dict() for law, trial in trials.items()},
             "advice": None if advice is None else advice.to_dict(),
             "joint": {law: one.to_dict() for law, one in (joints or {}).items()},
         }
-        write_json(folder / "report.json", content)
+        write_report(folder, _markdown(checks, trials, joints or {}, settings, advice), content)
         if figures and any(check.tasks for check in checks.values()):
-            from flypend.pictures.check import check_figure
+            from flypend.pictures.studies import check_figure
 
             save_both(check_figure(checks), folder / "check")
 

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from flypend import __version__, errors
+from flypend import errors
 from flypend.files import whole
 from flypend.files.staging import staging
 from flypend.flight.metrics import metrics
@@ -127,8 +127,11 @@ def write_flight(
                 "",
             ]
         lines += [f"Goal: {text.judgement(run)}.", ""]
-        (folder / "report.md").write_text("\n".join(lines), encoding="utf-8")
-        content = {"flypend": __version__, "settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
-        content["inverted"] = vars(metrics(run))
-        text.write_json(folder / "report.json", content)
+        content = {
+            "settings": settings,
+            "outcome": vars(run.outcome),
+            "claims": verdicts,
+            "inverted": vars(metrics(run)),
+        }
+        text.write_report(folder, "\n".join(lines), {**content, "inverted": vars(metrics(run))})
     return verdicts

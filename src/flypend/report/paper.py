@@ -161,19 +161,10 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         "## Defects of the paper, recomputed by this run",
         text.findings_markdown(result.findings),
     ]
-    (folder / "report.md").write_text("\n\n".join(parts), encoding="utf-8")
     claims = [
         {"law": law, "experiment": name, "run": result.ends[law, name], "claims": row}
         for (law, name), row in result.verdicts.items()
     ]
     repaired = [{"experiment": name, "claims": row} for (_, name), row in result.repaired.items()]
-    text.write_json(
-        folder / "report.json",
-        {
-            "flypend": __version__,
-            "claims": claims,
-            "repaired": repaired,
-            "defects": result.findings,
-            "swing_up": vars(metrics(result.swing_up)),
-        },
-    )
+    content = {"claims": claims, "repaired": repaired, "defects": result.findings}
+    text.write_report(folder, "\n\n".join(parts), content | {"swing_up": vars(metrics(result.swing_up))})

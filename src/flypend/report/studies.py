@@ -11,9 +11,8 @@ from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
-from flypend import __version__
 from flypend.files.staging import staging
-from flypend.report.text import markdown_table, write_json
+from flypend.report.text import markdown_table, write_report
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
@@ -70,9 +69,7 @@ def write_comparison(
 
     with staging(out) as folder:
         text = f"# Laws compared\n\n{_describe(settings)}\n\n{comparison_markdown(comparison)}\n"
-        (folder / "report.md").write_text(text, encoding="utf-8")
-        content = {"flypend": __version__, "settings": settings, "laws": comparison.rows()}
-        write_json(folder / "report.json", content)
+        write_report(folder, text, {"settings": settings, "laws": comparison.rows()})
         save_both(comparison_figure(comparison), folder / "comparison")
         for name, run in (failed or {}).items():
             (folder / "failed").mkdir(exist_ok=True)
@@ -117,12 +114,11 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     with staging(out) as folder:
         text = f"# Reality ladder\n\n{_describe(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
         text += f"\nFailures by cause (the quantity out of tolerance during the last second):\n\n{failures}\n"
-        (folder / "report.md").write_text(text, encoding="utf-8")
         content = {
             rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}
             for rung, comparison in ladder.rungs.items()
         }
-        write_json(folder / "report.json", {"flypend": __version__, "settings": settings, "rungs": content})
+        write_report(folder, text, {"settings": settings, "rungs": content})
         save_both(ladder_figure(ladder), folder / "ladder")
 
 

@@ -13,6 +13,7 @@ from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
+from flypend import __version__
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
 from flypend.flight.verdict import fall, goal
@@ -114,6 +115,12 @@ def findings_markdown(findings: Iterable[Finding]) -> str:
 def write_json(path: Path, content: Any) -> None:
     """Write `content` (records, mappings, numbers) as JSON to `path`; NaN becomes null."""
     path.write_text(json.dumps(_plain(content), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def write_report(folder: Path, markdown: str, content: Mapping[str, Any]) -> None:
+    """Write report.md, and report.json with the version, into `folder`."""
+    (folder / "report.md").write_text(markdown, encoding="utf-8")
+    write_json(folder / "report.json", {"flypend": __version__, **content})
 
 
 def _plain(content: Any) -> Any:

@@ -148,14 +148,10 @@ def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
         _markdown(result.descents),
         "Figures: V-experiments, V-swing-ups, and basin, the settling time over planar starts at rest.",
     ]
-    (folder / "report.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
     claims = [
         {"theorem": theorem, "start": start, "claims": row}
         for verdicts in (result.repaired, result.almost_global)
         for (theorem, start), row in verdicts.items()
     ]
-    content = {
-        "flypend": __version__, "claims": claims, "runs": runs, "seed": seed,
-        "descents": [asdict(row) for row in result.descents],
-    }  # fmt: skip
-    text.write_json(folder / "report.json", content)
+    content = {"claims": claims, "runs": runs, "seed": seed, "descents": [asdict(row) for row in result.descents]}
+    text.write_report(folder, "\n\n".join(parts) + "\n", content)

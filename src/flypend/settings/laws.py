@@ -176,12 +176,12 @@ def describe_law(law: BoundLaw | Controller, vehicle: Vehicle) -> str:
     return ", ".join([law.name, *shown[:4], *(["…"] if len(shown) > 4 else [])])
 
 
-def law_table(value: Any, key: str = "law") -> dict[str, Any]:
-    """Return the TOML table of the law `value`, a name or a table. Raises InputError with the field name `key`."""
+def law_table(value: Any) -> dict[str, Any]:
+    """Return the TOML table of the law `value`, a name or a table. Raises InputError."""
     if isinstance(value, str):
         return table_of(value)
     if not isinstance(value, dict):
-        raise InputError(key, "the name of a law, or a table", repr(value))
+        raise InputError("law", "the name of a law, or a table", repr(value))
     return dict(value)
 
 

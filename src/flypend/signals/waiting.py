@@ -7,6 +7,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
+from threading import Thread, current_thread, main_thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from flypend.signals import PERIOD, is_ending, poll
@@ -27,6 +28,26 @@ def result_of(call: Future[T]) -> T:
         poll()
     poll()
     return call.result()
+
+
+def call_in_thread(call: Callable[[], T]) -> T:
+    """Return `call()`, which nothing can stop, such as a compiler, made in a thread of its own.
+
+    A signal is raised in the main thread within a tenth of a second; what the call returns later is dropped. Other
+    threads call directly.
+    """
+    if current_thread() is not main_thread():
+        return call()
+    result: Future[T] = Future()
+
+    def answer() -> None:
+        try:
+            result.set_result(call())
+        except BaseException as error:  # raised where the result is asked for
+            result.set_exception(error)
+
+    Thread(target=answer, name="flypend-aside").start()
+    return result_of(result)
 
 
 def as_they_come(calls: Sequence[Future[T]]) -> Iterator[Future[T]]:

@@ -20,7 +20,7 @@ from flypend.files import whole
 from flypend.flight.criterion import Criterion
 from flypend.flight.ensemble import simulate_ensemble
 from flypend.geometry import Numbers
-from flypend.laws import BoundLaw, Law, almost_global, almost_global_lag, inverted
+from flypend.laws import BoundLaw, almost_global, almost_global_lag, inverted
 from flypend.laws.certified import CertifiedSet
 from flypend.laws.lag import leading
 from flypend.model import State, Vehicle
@@ -83,7 +83,6 @@ def measure_basin(
     runs: int,
     seed: int,
     *,
-    first: Law | None = None,
     lag: bool = False,
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> MeasuredBasin:
@@ -95,8 +94,6 @@ def measure_basin(
         One that Theorem B models.
     runs, seed : int
         Number of starts, and their seed.
-    first : Law, optional
-        A law with e₃ up; default `inverted`.
     lag : bool
         Whether rotors lag, by the vehicle's `rotor_lag`. They begin at their minimum.
     progress : callable
@@ -105,7 +102,7 @@ def measure_basin(
     Raises
     ------
     InputError
-        If runs or seed are invalid, the law has e₃ down, the theorem does not cover the vehicle, or the extra "studies"
+        If runs or seed are invalid, the theorem does not cover the vehicle, or the extra "studies"
         is missing.
     """
     errors.require("scipy", extra="studies", for_="basin")
@@ -113,9 +110,7 @@ def measure_basin(
 
     check_starts(runs, seed)
     errors.check_kind("lag", lag, bool)
-    before = first or inverted()
-    errors.one_of("first.e3", before.e3, ("up",))
-    law = (leading(before) if lag else before).bind(vehicle)
+    law = (leading(inverted()) if lag else inverted()).bind(vehicle)
     progress("proving the certified set", 0, 1)
     certified = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
     times, again = [], 0

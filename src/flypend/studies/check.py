@@ -18,14 +18,14 @@ from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
 from flypend.laws.located import LawError
-from flypend.model import Vehicle
+from flypend.model import State, Vehicle
+from flypend.planning.planner import plan_ensemble
 from flypend.planning.result import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import check_bands, fly_within
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
-from flypend.studies.possible import STARTS, describe, possible
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -33,6 +33,8 @@ USUAL, SLOW = (1000, 12, 30.0), (24, 3, 10.0)
 MARGIN_RUNS, SLOW_MARGIN_RUNS = 200, 12
 MOST_RUNS = 1_000_000  # minutes of flights; a sweep can be stopped and resumed
 GRADES = ("all", "most", "some", "none")  # of the starts of a task succeed; most: at least 90 %
+STARTS = 8  # of the random ones, to plan from where a law fails
+MOST, HARDLY_ANY = 0.9, 0.1  # shares of them
 LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
 
 Progress = Callable[[str, int, int], Any]
@@ -99,7 +101,7 @@ class Check:
     @property
     def possible(self) -> str:
         """What the plans say, in a sentence; empty without plans."""
-        return "" if self.plans is None else describe(self.plans, self.law)
+        return "" if self.plans is None else describe_plans(self.plans, self.law)
 
     @property
     def ok(self) -> bool:
@@ -220,7 +222,7 @@ def check(
     except InputError as error:
         refusal = f"the {name} law refuses the vehicle: {error}"
         some = task_starts(vehicle, STARTS, seed)["random"]
-        plans = possible(world.true_vehicle(vehicle), some, workers, progress)
+        plans = plan_some(world.true_vehicle(vehicle), some, workers, progress)
         return Check(**about, reasons=(*found.doubtful, refusal), plans=plans)
     quick = isinstance(bound, BoundLaw) and world.engine == "equations"
     usual, directions, long = USUAL if quick else SLOW
@@ -239,10 +241,29 @@ def check(
         flight = _of_margins(vehicle, bound, world, tasks["random"], seconds, quick)
         about["margins"] = search(flight, quantities(vehicle, world), progress)
     if (reasons or shortfalls) and world.limits:
-        about["plans"] = possible(world.true_vehicle(vehicle), starts["random"], workers, progress)
+        about["plans"] = plan_some(world.true_vehicle(vehicle), starts["random"], workers, progress)
     trembles = too_noisy(bound, world) if isinstance(bound, BoundLaw) else ""
     told = (*shortfalls, *[trembles] * bool(trembles), *found.doubtful)
     return Check(**about, reasons=(*reasons, *told)) if reasons else Check(**about, warnings=told)
+
+
+def plan_some(vehicle: Vehicle, starts: State, workers: int | None, progress: Progress) -> PlanEnsemble | None:
+    """Return plans from the first of `starts`, whatever the law; None for a vehicle that the planner refuses."""
+    try:
+        return plan_ensemble(vehicle, starts[:STARTS], workers=workers, progress=partial(progress, "planning"))
+    except InputError:
+        return None
+
+
+def describe_plans(plans: PlanEnsemble, law: str) -> str:
+    """Return in a sentence what the `plans` say about a vehicle on which the `law` fails."""
+    count, share = int(plans.success.sum()), float(plans.success.mean())
+    found = f"plans reach inverted hover from {count} of {len(plans)} random starts"
+    if share >= MOST:
+        return f"{found}: the limit is the {law} law's, not the vehicle's"
+    if share <= HARDLY_ANY:
+        return f"{found}: the limit may be the vehicle's, not the {law} law's"
+    return f"{found}: this vehicle can be inverted from some"
 
 
 def grade(rate: float) -> str:

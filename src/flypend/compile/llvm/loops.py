@@ -16,17 +16,15 @@ from typing import Any
 
 import llvmlite.binding as llvm
 import numpy as np
-from llvmlite import ir
 from numpy.typing import ArrayLike
 
-from flypend.compile.llvm.emit import ELEMENTARY, define
-from flypend.compile.llvm.target import Target
-from flypend.compile.llvm.vector import I64, Lanes
+from flypend.compile.llvm.emit import ELEMENTARY, Lanes, Module, define, hexadecimal
+from flypend.compile.llvm.target import Target, native
 from flypend.compile.program import Program
 
 SHORT = 64  # operations; a program of so few becomes part of the loop wherever it is called
 VISIBLE = frozenset(("kernel", "context_size"))  # functions of a loop
-Definition = Callable[[Lanes, str], ir.Function]  # defines a program under a name
+Definition = Callable[[Lanes, str], str]  # defines a program under a name, as a visible function
 _ELEMENTARY = re.compile(rf"(?:{'|'.join(ELEMENTARY)})\.(\d+)x(\d+)")
 Constants = dict[str, int | float | ArrayLike]
 
@@ -34,20 +32,20 @@ Constants = dict[str, int | float | ArrayLike]
 def several(program: Program) -> Definition:
     """Define `program`, which the loop calls in several places or rarely."""
     short = len(program.operations) <= SHORT
-    return lambda lanes, name: define(lanes, replace(program, name=name), inline=short)
+    return lambda lanes, name: define(lanes, replace(program, name=name), inline=short, visible=True)
 
 
 def once(program: Program) -> Definition:
     """Define `program`, which the loop calls in one place, as part of the loop."""
-    return lambda lanes, name: define(lanes, replace(program, name=name), inline=True)
+    return lambda lanes, name: define(lanes, replace(program, name=name), inline=True, visible=True)
 
 
 def apart(program: Program, *, exact: bool = False) -> Definition:
     """Define `program` as a function whose rounding does not depend on the loop's; `exact` as in `emit.define`."""
-    return lambda lanes, name: define(lanes, replace(program, name=name), exact=exact)
+    return lambda lanes, name: define(lanes, replace(program, name=name), exact=exact, visible=True)
 
 
-class LoopModule(ir.Module):  # type: ignore[misc]  # llvmlite has no types
+class LoopModule(Module):
     """What a loop leaves open: `programs` and `constants` by their names in the loop's source.
 
     Integers and floats are constants of their own, arrays of integers are such, anything else is of doubles. Of the
@@ -61,17 +59,14 @@ class LoopModule(ir.Module):  # type: ignore[misc]  # llvmlite has no types
         programs: Mapping[str, Definition],
         constants: Constants,
     ) -> None:
-        super().__init__("flypend")
+        super().__init__()
         width, precision, target = vectors
-        lanes = Lanes(self, width, precision, target=target)
-        self.bitcode = file_of(loop, width, 8 * lanes.size // width, lanes.target.pointer_bits)
+        lanes = Lanes(self, width, precision, target or native())
+        self.bitcode = file_of(loop, width, lanes.bits, lanes.target.pointer_bits)
         self.inner = {*programs, *constants}
         for name, definition in programs.items():
-            definition(lanes, name).linkage = "external"
-        for name, value in constants.items():
-            known = _constant(value)
-            variable = ir.GlobalVariable(self, known.type, name)
-            variable.initializer, variable.global_constant = known, True
+            definition(lanes, name)
+        self.definitions += [f'@"{name}" = constant {_constant(value)}' for name, value in constants.items()]
 
 
 def file_of(loop: str, width: int, bits: int, pointer_bits: int) -> str:
@@ -79,15 +74,16 @@ def file_of(loop: str, width: int, bits: int, pointer_bits: int) -> str:
     return f"{loop}_{width}x{bits}_p{pointer_bits}.bc"
 
 
-def _constant(value: int | float | ArrayLike) -> ir.Constant:
+def _constant(value: int | float | ArrayLike) -> str:
+    """Type and number, or numbers, of a constant."""
     if isinstance(value, (int, float)):
-        return ir.Constant(I64 if isinstance(value, int) else ir.DoubleType(), value)
+        return f"i64 {value}" if isinstance(value, int) else f"double {hexadecimal(value)}"
     whole = isinstance(value, np.ndarray) and value.dtype.kind == "i"
-    numbers = [int(number) if whole else float(number) for number in np.ravel(value)]
-    return ir.Constant(ir.ArrayType(I64 if whole else ir.DoubleType(), len(numbers)), numbers)
+    numbers = [f"i64 {number}" if whole else f"double {hexadecimal(number)}" for number in np.ravel(value).tolist()]
+    return f"[{len(numbers)} x {'i64' if whole else 'double'}] [{', '.join(numbers)}]"
 
 
-def link(module: ir.Module, given: Any, target: Target) -> Any:
+def link(module: Any, given: Any, target: Target) -> Any:
     """Return `given`, which is `module` parsed, linked to its loop, if any, and the elementary functions it calls."""
     kinds = {found.groups() for part in given.functions if (found := _ELEMENTARY.fullmatch(part.name))}
     files = [file_of("elementary", int(width), int(bits), target.pointer_bits) for width, bits in sorted(kinds)]

@@ -10,9 +10,8 @@ import numpy as np
 from flypend.compile.llvm.loops import LoopModule, several
 from flypend.compile.llvm.target import Target
 from flypend.compile.methods import Method
-from flypend.compile.problem import Problem
+from flypend.compile.problem import LONGEST, Problem
 from flypend.compile.program import Program, drop_dead
-from flypend.compile.touch import LONGEST
 from flypend.model.state import MAX_STATE
 
 COMPLETED, DIVERGED, SINGULAR, UNDEFINED, TOO_SMALL, TOO_MANY, COLLIDED = range(7)

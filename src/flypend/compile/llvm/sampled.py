@@ -42,7 +42,7 @@ def _on_board(problem: SampledProblem) -> dict[str, Definition]:
     board = replace(problem.board, name="board", programs=parts)
     programs: dict[str, Definition] = {
         "start": once(replace(start, inputs=(*start.inputs, 0)[:2])),  # without sensors there is no estimate
-        "board": lambda lanes, _: define_routine(lanes, board, slide, inline=True),
+        "board": lambda lanes, _: define_routine(lanes, board, slide, inline=True, visible=True),
         "judge": several(problem.judge),
     }
     if problem.measure is not None:

@@ -16,13 +16,11 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from llvmlite import ir
 from numpy.typing import NDArray
 
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.emit import define_routine
+from flypend.compile.llvm.emit import Lanes, define_routine
 from flypend.compile.llvm.loops import Constants, LoopModule
-from flypend.compile.llvm.vector import POINTER, Lanes
 from flypend.compile.routine import Routine, lower_calls
 
 WIDTH = 8
@@ -155,10 +153,10 @@ def one_routine(function: ca.Function) -> Routine:
     return lower_calls(ca.Function(f"{function.name()}_called", inputs, function.call(inputs)))
 
 
-def _define_stage(routine: Routine, lanes: Lanes, name: str) -> ir.Function:
+def _define_stage(routine: Routine, lanes: Lanes, name: str) -> str:
     """Define `routine` as a function of the addresses of its arrays."""
-    inner, (function, code) = define_routine(lanes, routine), lanes.function(name, 1, inline=True)
-    places = [code.vector_at(function.args[0], i, POINTER) for i in range(len(inner.args))]
-    code.call(inner, *(code.builder.load(place, typ=POINTER) for place in places))
-    code.builder.ret_void()
-    return function
+    inner, code = define_routine(lanes, routine), lanes.function(name, 1)
+    count = len(routine.inputs) + len(routine.outputs)
+    places = [code.put(f"getelementptr ptr, ptr {code.arguments[0]}, i64 {i}") for i in range(count)]
+    code.call(inner, *[code.put(f"load ptr, ptr {place}") for place in places])
+    return code.end(inline=True, visible=True)

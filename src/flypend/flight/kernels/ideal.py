@@ -24,9 +24,9 @@ from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, gauge, gauge_bounds
 from flypend.flight.kernels.flown import Flown, Progress, from_queue, in_order, inputs_of
 from flypend.flight.kernels.stopping import Word, heard
-from flypend.flight.kernels.touching import touch_of
 from flypend.flight.moments import distinct
 from flypend.flight.request import Tolerances
+from flypend.flight.touch import touch_of
 from flypend.geometry import Numbers, Vector, hat
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import SymbolicLoop, symbolic_loop

@@ -26,9 +26,9 @@ from flypend.errors import array
 from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observe
 from flypend.flight.kernels.flown import Flown, Progress, in_order, in_pieces, inputs_of
 from flypend.flight.kernels.stopping import Word
-from flypend.flight.kernels.touching import touch_of
-from flypend.flight.moments import merge
+from flypend.flight.moments import distinct
 from flypend.flight.sampled import is_random, number_of_ticks
+from flypend.flight.touch import touch_of
 from flypend.geometry import Numbers
 from flypend.model import State, Vehicle
 from flypend.model.outline import extent
@@ -62,7 +62,12 @@ class Ticks(NamedTuple):
     @classmethod
     def of(cls, judge_at: ArrayLike, keep_at: ArrayLike | None) -> Ticks:
         """Merge the ticks at which the criterion is evaluated and those kept; `rows` ends with the total."""
-        return cls(*merge(judge_at, keep_at, np.int64))
+        judge, keep = (
+            distinct(np.asarray(() if some is None else some, dtype=np.int64)) for some in (judge_at, keep_at)
+        )
+        ticks = distinct(np.concatenate([judge, keep]))
+        judged = np.diff(np.append(np.searchsorted(judge, ticks), len(judge)))
+        return cls(ticks, judged, np.append(np.searchsorted(keep, ticks), len(keep)))
 
 
 @dataclass(frozen=True, eq=False)

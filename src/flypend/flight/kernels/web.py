@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import casadi as ca
 import numpy as np
-from llvmlite import ir
 
 from flypend.compile.llvm import jit
-from flypend.compile.llvm.emit import define
+from flypend.compile.llvm.emit import Lanes, define
+from flypend.compile.llvm.loops import LoopModule
 from flypend.compile.llvm.target import wasm32
-from flypend.compile.llvm.vector import Lanes
 from flypend.compile.program import Program, lower
 from flypend.compile.wasm import module
 from flypend.flight.criterion import Criterion, observe
@@ -36,17 +35,17 @@ class WebModule:
     """A module of WebAssembly to be: `kernel` writes the functions `names`; `programs` are functions beside them."""
 
     key: str
-    kernel: Callable[[], ir.Module]
+    kernel: Callable[[], LoopModule]
     names: tuple[str, ...]
     programs: tuple[Program, ...]
 
     def code(self) -> bytes:
         """Return its bytes, compiled or from the cache. No expression of CasADi is touched any more."""
 
-        def whole() -> ir.Module:
+        def whole() -> LoopModule:
             made = self.kernel()
             for program in self.programs:
-                define(Lanes(made, 1, target=wasm32()), program).linkage = "external"
+                define(Lanes(made, 1, target=wasm32()), program, visible=True)
             return made
 
         exported = [*self.names, *(program.name for program in self.programs)]

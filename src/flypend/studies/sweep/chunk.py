@@ -18,7 +18,6 @@ from flypend.laws import Controller
 from flypend.laws.own import fingerprint
 from flypend.model import State
 from flypend.plants import Sampled
-from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import Design, design
 from flypend.studies.sweep.study import Study, study
 
@@ -54,10 +53,10 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
     return fly_range(made, first, min(first + made.chunk, made.runs))
 
 
-def fly_range(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> dict[str, Any]:
-    """Return the columns of runs `first` to `last` (exclusive) of `study`, from sample `stream`, flown on one core."""
+def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
+    """Return the columns of runs `first` to `last` (exclusive) of `study`, flown on one core."""
     with building:
-        drawn = design(study, first, last, stream)
+        drawn = design(study, first, last)
         requests = flights(study, drawn, first)
     parts = [fly_many(flight, workers=1) for flight in requests]
     judged = [flown.columns for flown in parts]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from flypend.errors import InputError, require
-from flypend.geometry import cross, rotation_from_quat_xyzw, scale, unit
+from flypend.geometry import cross, scale, unit
 
 SAMPLINGS = ("uniform", "sobol", "latin")
 # Independent streams of one seed: the runs that a study reports, and the runs for tuning.
@@ -99,11 +99,6 @@ def as_quat_xyzw(u: Any) -> Any:
     one, two = np.sqrt(1 - u[:, 0]), np.sqrt(u[:, 0])
     a, b = 2 * np.pi * u[:, 1], 2 * np.pi * u[:, 2]
     return np.stack([one * np.sin(a), one * np.cos(a), two * np.sin(b), two * np.cos(b)], axis=1)
-
-
-def rotations(quat_xyzw: Any) -> Any:
-    """Return the rotation matrices (n, 3, 3) of quaternions (n, 4)."""
-    return rotation_from_quat_xyzw(quat_xyzw)
 
 
 def in_ball(u: Any, radius: float) -> Any:

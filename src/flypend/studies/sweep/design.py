@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from flypend.geometry import rotation_from_quat_xyzw
 from flypend.model.state import FLIP, SHAPES, SIZE
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.axes import ANGLES, Axis
@@ -78,7 +79,7 @@ def _starts(study: Study, numbers: dict[tuple[str, str], Any], runs: int) -> tup
             fields[name] = columns[name] = cube.in_ball(u, axis.high)
     if "R" in given:
         columns["quat_xyzw"] = cube.as_quat_xyzw(given["R"][1])
-        fields["R"] = cube.rotations(columns["quat_xyzw"])
+        fields["R"] = rotation_from_quat_xyzw(columns["quat_xyzw"])
     if "y" in given:
         fields["y"] = cube.on_sphere(given["y"][1])
     if set(ANGLES) & set(given):

@@ -7,9 +7,12 @@ import flypend as fp
 from flypend.compile.numeric import as_numpy
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import plant_numbers, sampled_kernel
-from flypend.plants import plant
+from flypend.flight.request import Flight
+from flypend.flight.sampled import fly_stepwise
+from flypend.plants import SUITES, plant
+from flypend.plants.defects import NAMES
 from flypend.plants.equations import struck
-from flypend.plants.knobs import KNOBS, knob_values, turn_knobs
+from flypend.plants.knobs import KNOBS, defect_sizes, knob_values, turn_knobs
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Noise, Wind
 
@@ -70,6 +73,42 @@ def test_other_rotor_limits_are_those_of_a_vehicle_that_has_them():
     assert own[:, 24:].max() <= limits[1] + 1e-12
     np.testing.assert_allclose(own, at_once(loop_of(CALM, law, other)), atol=1e-9)
     assert np.abs(own - in_pieces(loop_of(CALM, law))).max() > 0.1
+
+
+ADJUSTABLE = SEEN.replace(sensors=SUITES["mocap"].replace(adjustable="all"))
+SIZES = {
+    "gyro_bias": 0.02, "accelerometer_scale": 0.01, "imu_turned": 0.01, "markers_off": 0.003, "markers_turned": 0.01,
+    "rod_markers_off": 0.01, "frame_off": 0.1, "frame_turned": 0.02, "frame_scale": 0.01, "gyro_bias_walk": 0.01,
+    "vibration": 1.0, "gyro_vibration": 0.1, "outliers": 0.02, "bursts": 0.3, "untold_latency": 0.0073,
+    "latency_jitter": 0.004,
+}  # fmt: skip
+
+
+def test_other_sizes_of_defects_are_those_of_sensors_that_have_them():
+    """Of 0, only roundoff remains of them, though they draw random numbers. They act from the next piece on."""
+    kernel, ticks = pieces_kernel(loop_of(ADJUSTABLE), CRITERION), 300
+    wrong = ADJUSTABLE.sensors.replace(**SIZES)
+
+    def flown(sizes, *lengths):
+        flight = kernel.begin(START, seed=3)
+        flight.turn(defects=sizes)
+        return np.concatenate([flight.advance(length) for length in lengths])
+
+    for sensors, same in ((wrong, wrong), (ADJUSTABLE.sensors, SUITES["mocap"])):
+        law = fp.laws.inverted().bind(MACHINE)
+        request = Flight(
+            vehicle=MACHINE, law=law, starts=START, duration=ticks / CALM.rate, plant=CALM.replace(sensors=same), seed=3
+        )
+        wanted = fly_stepwise(request)
+        # Kernels fuse products and sums: roundoff, which the unstable rod makes e^(4.4 · 0.6) times as large.
+        np.testing.assert_allclose(flown(defect_sizes(sensors), ticks)[:, :24], wanted.packed, atol=1e-9)
+    right, off = (flown(defect_sizes(sensors), ticks) for sensors in (ADJUSTABLE.sensors, wrong))
+    assert np.abs(right - off)[-1].max() > 1e-2
+    flight = kernel.begin(START, seed=3)
+    before = flight.advance(200)
+    flight.turn(defects=defect_sizes(wrong))
+    assert np.array_equal(before, right[:201])
+    assert np.abs(flight.advance(20) - right[201:221]).max() > 1e-3
 
 
 def test_a_moved_origin_moves_the_flight():
@@ -138,7 +177,7 @@ def test_what_is_no_knob_and_no_gain_is_refused():
         flight.tune({"rod_bandwidth": 3.0})
     with pytest.raises(fp.InputError, match="engine"):
         pieces_kernel(loop_of(plant("mujoco")), CRITERION)
-    assert sum(KNOBS.values()) == 21
+    assert sum(KNOBS.values()) == 21 + len(NAMES)
 
 
 def test_a_flight_that_has_ended_goes_nowhere():

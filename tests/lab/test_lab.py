@@ -24,6 +24,7 @@ import flypend as fp
 from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.kernels.pieces import pieces_kernel
+from flypend.flight.kernels.sampled import structure
 from flypend.flight.metrics import metrics
 from flypend.flight.signals import Signals
 from flypend.flight.simulate import fly as fly_request
@@ -42,9 +43,11 @@ from flypend.lab.shares import Shares
 from flypend.lab.tuning import tune_loop
 from flypend.lab.worker import END, encode
 from flypend.laws import law_names
-from flypend.pages.sliders import sliders_of
+from flypend.pages.sliders import DEFECTS, sliders_of
 from flypend.pages.starts import directions
 from flypend.paper import experiment
+from flypend.plants import SUITES
+from flypend.plants.defects import NAMES
 from flypend.settings.runfile import run_file
 
 OFFER = offer()
@@ -75,7 +78,10 @@ CASES = [
         vehicle={"base": "hehn2011", "rotor_limits": [0.08, 3.0]},
     ),
     asked(plant={"base": "rotors", "sensors": "mocap", "delay": 0.005}, gains={"throw_speed": 1.3}),
-    asked("lqr", plant={"base": "rotors", "sensors": "mocap"}),
+    asked(
+        "lqr",
+        plant={"base": "rotors", "sensors": "laboratory", "defects": {"gyro_bias": 0.0, "outliers": 0.002}},
+    ),
 ]
 
 
@@ -415,6 +421,18 @@ WRONG = [
     (asked(plant={"base": "rotors", "sensors": "eyes"}), "plant.sensors"),
     (asked(plant={"base": "rotors", "sensors": {"base": "mocap", "force_error": 1e-3}}), "plant.sensors"),
     (asked(plant={"base": "rotors", "sensors": "mocap", "noise": {"x": 1e-3}}), "plant.noise"),
+    (asked(plant={"base": "rotors", "defects": {"gyro_bias": 0.1}}), "plant.defects.gyro_bias"),
+    (asked(plant={"base": "rotors", "sensors": "mocap", "defects": {"joints_off": 0.1}}), "plant.defects.joints_off"),
+    (asked(plant={"base": "rotors", "sensors": "mocap", "defects": {"gyro_bias": 9.0}}), "plant.defects.gyro_bias"),
+    (
+        asked(plant={"base": "rotors", "sensors": "mocap", "defects": {"gyro_bias": [0, 0, 1]}}),
+        "plant.defects.gyro_bias",
+    ),
+    (
+        asked(plant={"base": "rotors", "sensors": "mocap", "defects": {"untold_latency": 0.1}}),
+        "plant.defects.untold_latency",
+    ),
+    (asked(plant={"base": "rotors", "sensors": "mocap", "defects": 3}), "plant.defects"),
     (asked(plant={"base": "rotors", "rate": 1e9}), "plant.rate"),
     (asked(plant={"base": "rotors", "engine": "mujoco"}), "plant.engine"),
     (asked(plant={"base": "rotors", "lag": -1}), "plant.lag"),
@@ -462,6 +480,27 @@ def test_every_slider_can_be_put_where_it_says():
             table[keys[-1]] = _filled(slider["put"], wanted) if slider["put"] is not None else wanted
             [again] = [s for s in sliders(setting_of(changed)) if s["path"] == slider["path"]]
             assert again["value"] == pytest.approx(wanted), slider["path"]
+
+
+@pytest.mark.parametrize("sensors", ["mocap", "onboard", "laboratory"])
+def test_every_defect_has_a_slider_that_compiles_nothing(sensors):
+    """From 0, in its unit; to its end, but for the room for late poses, which comes in steps."""
+    asked_for = asked(plant={"base": "rotors", "sensors": sensors})
+    suite = SUITES[sensors]
+    shown = {facts["path"]: facts for facts in sliders(setting_of(asked_for)) if facts["group"] == "defects"}
+    assert set(shown) == {f"plant.defects.{name}" for name in suite.replace(adjustable="all").adjustable}
+    assert set(DEFECTS) == {*NAMES} - {"vibration_rate", "outlier_off", "outlier_turned", "burst_time"}
+    before = structure(setting_of(asked_for).flight.plant)
+    for path, facts in shown.items():
+        name = path.removeprefix("plant.defects.")
+        assert (facts["low"], facts["put"]) == (0.0, {"#": DEFECTS[name][2]})
+        assert facts["value"] * facts["put"]["#"] == pytest.approx(getattr(suite, name))
+        # Some five times what a careful laboratory has, or more.
+        assert facts["high"] * facts["put"]["#"] >= 5 * getattr(SUITES["laboratory"], name)
+        defects = {name: facts["high"] * facts["put"]["#"]}
+        turned = setting_of(asked(plant={"base": "rotors", "sensors": sensors, "defects": defects})).flight.plant
+        assert getattr(turned.sensors, name) == pytest.approx(defects[name])
+        assert (structure(turned) == before) == (name not in ("untold_latency", "latency_jitter"))
 
 
 def _filled(put, value):

@@ -1,6 +1,7 @@
 """The laboratory in a real browser without a screen: sliders, rod, pokes, presets, reload, tabs, map, export."""
 
 import json
+import re
 import time
 
 import numpy as np
@@ -392,6 +393,42 @@ def test_sensors_are_chosen_flown_by_the_page_and_confirmed(visit):
     shown(page)
     assert setting(page)["plant"] == {"base": "rotors"}
     expect_flight(page)
+
+
+def test_a_defect_of_the_sensors_is_turned_up_until_the_vehicle_falls(visit, axe):
+    page = visit()
+    page.locator("select[data-path='plant.sensors']").select_option("mocap")
+    shown(page)
+    able(page)
+    bias, told = slider(page, "plant.defects.gyro_bias"), page.locator(".fell")
+    assert bias.get_attribute("aria-valuetext") == "0 rad/s"
+    bias.focus()
+    page.keyboard.press("ArrowRight")
+    until(page, "() => flypend.timings().at(-1).here")
+    assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap", "defects": {"gyro_bias": 0.0025}}
+    expect_flight(page)  # by the page
+    shown(page)
+    expect_flight(page)  # by the server
+    assert told.text_content() == ""
+    slider(page, "plant.defects.frame_turned").fill("20")
+    page.evaluate("flypend.seek(6)")
+    page.locator(".go").click()
+    until(page, "() => flypend.verdict().words === 'live: upright'")
+    bias.fill("400")
+    until(page, "() => document.querySelector('.fell').textContent.startsWith('Fell after')")
+    assert re.fullmatch(r"Fell after \d+\.\d s at gyro bias 1 rad/s, cameras' frame turned 1 °\.", told.text_content())
+    assert [one for one in axe(page) if one[0] != "color-contrast"] == []
+    page.locator(".has-defects .reset").click()
+    assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap"}
+    assert bias.input_value() == "0"
+    page.locator(".go").click()
+    shown(page)
+    bias.fill("400")
+    until(page, "() => document.querySelector('.fell').textContent === 'Fails at gyro bias 1 rad/s.'")
+    page.locator("select[data-path='plant.sensors']").select_option("perfect")
+    shown(page)
+    assert setting(page)["plant"] == {"base": "rotors"}
+    assert page.locator(".has-defects").is_hidden()
 
 
 def test_a_reload_keeps_the_setting_and_another_page_is_not_disturbed(visit):

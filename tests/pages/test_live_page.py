@@ -493,7 +493,8 @@ def test_sensors_and_estimator_fly_in_the_page(visit):
     second, wherever it is flown: between two steps nobody sees which way the rod leans.
     """
     onboard = SUITES["onboard"].replace(joints=replace(SUITES["onboard"].joints, quantisation=1e-12))
-    for sensors in ("mocap", onboard):
+    wrong = SUITES["mocap"].replace(adjustable="all", gyro_bias=0.01, outliers=0.003, bursts=0.5, untold_latency=0.012)
+    for sensors in ("mocap", onboard, wrong):
         seen = fp.Plant(sensors=sensors, wind=fp.Wind(gust_on_vehicle=0.05), seed=3)
         start = fp.State(y=(0.3, 0, 0.91**0.5))
         run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, 3.0, plant=seen)
@@ -502,6 +503,7 @@ def test_sensors_and_estimator_fly_in_the_page(visit):
         for name in ("x", "R", "y", "rotor_forces"):
             np.testing.assert_allclose(told[name], getattr(run, name)[::20], atol=1e-9, err_msg=name)
         assert page.locator("[data-path='plant.noise']").count() == 0
+        assert (page.locator("[data-path='plant.defects.gyro_bias']").count() == 1) == (sensors is wrong)
 
 
 def test_a_rod_that_touches_ends_the_flight_in_the_page_too(visit):

@@ -1,6 +1,7 @@
 """Defects of sensors: each does what its definition says, in NumPy; one of size 0 adds nothing; nobody is told."""
 
 import itertools
+from statistics import NormalDist
 
 import casadi as ca
 import numpy as np
@@ -12,11 +13,13 @@ from flypend.board.estimator import Filter
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
+from flypend.flight.kernels.sampled import structure
 from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
 from flypend.plants import SUITES, Plant, Sensor, Sensors
-from flypend.plants.defects import CONSTANT, NAMES, NEEDS, NUMBERS, names_drawn
+from flypend.plants.defects import CONSTANT, NAMES, NEEDS, NUMBERS, blank, names_drawn
 from flypend.plants.loop import Loop
+from flypend.plants.measurement import normal_quantile
 from flypend.plants.sensing import WIDTH, _defect_draws, draws_of, draws_size, first_memory, sensing, start_draws
 from flypend.plants.sensors import sensors_called
 
@@ -381,6 +384,58 @@ def test_a_kernel_flies_them_as_python_does():
     # Kernels fuse products and sums: roundoff, which the unstable rod makes e^(4.4 · 0.2) times as large.
     np.testing.assert_allclose(run.packed[-1], stepped(plant), atol=1e-9)
     assert np.max(np.abs(run.packed[-1] - stepped(plant.replace(seed=6)))) > 1e-4
+
+
+def test_one_kernel_serves_every_size():
+    """Sizes are numbers at run time: of those that there are, and of those that may come."""
+
+    def same(one, other):
+        return structure(Plant(sensors=one)) == structure(Plant(sensors=other))
+
+    laboratory, mocap = SUITES["laboratory"], SUITES["mocap"]
+    assert same(laboratory, laboratory.replace(gyro_bias=0.1, frame_turned=0.05))
+    assert not same(laboratory, laboratory.replace(gyro_bias=0.0))
+    assert not same(laboratory, laboratory.replace(gyro_bias=(0.0, 0.005, 0.0)))  # not drawn
+    assert not same(laboratory, laboratory.replace(untold_latency=0.009))  # of which a queue depends
+    assert not same(laboratory, laboratory.replace(rod=Sensor(rate=200.0, noise=3.5e-3, latency=0.01)))
+    every = mocap.replace(adjustable="all")
+    assert set(every.adjustable) == {*NAMES} - SIZES - {"joints_off"}
+    assert same(every, every.replace(**dict.fromkeys(every.adjustable, 0.005)))
+    assert same(every, every.replace(outliers=0.3, untold_latency=0.02, vibration_rate=90.0))
+    assert not same(every, mocap)
+    assert every.told == mocap
+    assert Sensors(**every.to_dict()) == every
+    for suite in (laboratory, every, EVERY.replace(**ONE)):
+        assert blank(blank(suite)) == blank(suite)
+
+
+@pytest.mark.parametrize(
+    ("named", "told"), [("gyro_byas", "gyro_bias"), ("joints_off", "one of"), ("burst_time", "one")]
+)
+def test_what_cannot_be_adjusted_is_refused(named, told):
+    with pytest.raises(InputError, match=told):
+        SUITES["mocap"].replace(adjustable=(named,))
+    with pytest.raises(InputError, match="names of defects"):
+        SUITES["mocap"].replace(adjustable=named)
+
+
+def test_an_adjustable_defect_is_that_of_its_size():
+    """Latencies that are numbers at run time deliver the readings of those that are compiled in, at the same ticks."""
+    states, fixed = wandering(200), EVERY.replace(untold_latency=0.0073)
+    adjustable = EVERY.replace(untold_latency=0.0073, adjustable=("untold_latency", "bursts", "outliers", "vibration"))
+    (one, _), (other, _) = read(fixed, states), read(adjustable, states)
+    for name in EVERY.streams:
+        assert np.array_equal(one[name][1] < 0, other[name][1] < 0)
+        np.testing.assert_allclose(other[name][1], one[name][1], atol=1e-15)
+        fresh = one[name][1] >= 0
+        np.testing.assert_allclose(other[name][0][fresh], one[name][0][fresh], atol=1e-9)
+
+
+@pytest.mark.parametrize("probability", [1e-9, 1e-3, 0.07, 0.08, 0.5, 0.91, 0.93, 0.999])
+def test_the_quantile_in_symbols_is_the_normal_one(probability):
+    found = float(normal_quantile(ca.DM(probability)))
+    assert found == pytest.approx(NormalDist().inv_cdf(probability), rel=1e-14)
+    assert float(normal_quantile(ca.DM(0.0))) == -1000.0
 
 
 # As data ------------------------------------------------------------------------------------------------------------

@@ -71,7 +71,7 @@ class Sensing:
     estimate : Program
         (state, draws) → the estimate with which the flight computer begins; the same draws.
     sense : Program
-        (memory, t, state, draws) → (memory, readings).
+        (memory, t, state, draws, sizes of defects) → (memory, readings).
     tick : int
         The tick that stands for the start among those of random numbers.
     """
@@ -191,10 +191,11 @@ class SampledProblem:
     def inputs(self) -> tuple[int, int, int, int, int]:
         """Lengths of the inputs shared by all flights of a call.
 
-        They are ages and steps of the intervals of a flight in pieces, timings, noise parameters, wind parameters, and
-        parameters of the board.
+        They are ages and steps of the intervals of a flight in pieces, timings, noise parameters or sizes of the
+        sensors' defects, wind parameters, and parameters of the board.
         """
         noise, wind = (program.inputs[2] if program else 0 for program in (self.measure, self.gusts))
+        noise += self.sensing.sense.inputs[4] if self.sensing else 0
         stretches = self.resuming.stretches if self.resuming else len(self.flown)
         schedule = 2 * stretches if self.resuming else 0
         return schedule, self.timing * stretches, noise, wind, self.board.inputs[4]

@@ -15,7 +15,7 @@ from flypend.laws import BoundLaw
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.pages.replay import in_base64
-from flypend.pages.sliders import Reach, gain_sliders, plant_sliders, slider, sliders_of
+from flypend.pages.sliders import Reach, defect_sliders, gain_sliders, plant_sliders, slider, sliders_of
 from flypend.pages.starts import directions, plain, starts
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.loop import Loop
@@ -61,7 +61,7 @@ def choices(flight: Flight) -> dict[str, Any]:
     """Return the choices of the page: sliders, starts, and the setting to begin with."""
     law, vehicle, plant = flight.law, flight.vehicle, flight.plant
     assert isinstance(law, BoundLaw)
-    turned = plant_sliders(plant, vehicle) if isinstance(plant, Sampled) else []
+    turned = [*plant_sliders(plant, vehicle), *defect_sliders(plant)] if isinstance(plant, Sampled) else []
     paths = [f"law.gains.{name}" for name in tunable(law)]
     gains = [entry for entry in gain_sliders(law, vehicle, law.gains) if entry["path"] in paths]
     first = {

@@ -23,6 +23,7 @@ from flypend.flight.verdict import HANGS, MISSED, POSE, goal
 from flypend.laws.closed_loop import lyapunov_function
 from flypend.model.state import SIZE
 from flypend.plants import Ideal, Noise
+from flypend.plants.defects import NAMES
 from flypend.plants.knobs import LONGEST_DELAY, knob_values
 from flypend.plants.loop import Loop
 
@@ -75,7 +76,7 @@ def _sampled_engine(loop: Loop) -> dict[str, Any]:
     return {
         "kind": "sampled", "arguments": list(sampled.ARGUMENTS),
         "plant": sum(pieces_problem(loop, goal(loop.law.e3)).inputs),
-        "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)],
+        "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)], "defects": list(NAMES),
         "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate, "reductions": len(JUDGED),
     }  # fmt: skip
 
@@ -83,7 +84,7 @@ def _sampled_engine(loop: Loop) -> dict[str, Any]:
 def _ideal(loop: Loop, exact: Tolerances) -> dict[str, Any]:
     return {
         "kind": "ideal", "arguments": list(runge_kutta.ARGUMENTS), "knobs": {"origin": [0.0, 0.0, 0.0]}, "noise": [],
-        "delay": 0.0, "period": PERIOD, "reductions": len(REDUCTIONS),
+        "defects": [], "delay": 0.0, "period": PERIOD, "reductions": len(REDUCTIONS),
         "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps},
     }  # fmt: skip
 

@@ -13,7 +13,7 @@ from flypend.laws import law_names
 from flypend.model import State
 from flypend.model.table import vehicle_names
 from flypend.pages import replay
-from flypend.pages.sliders import Reach, gain_sliders, plant_sliders, slider
+from flypend.pages.sliders import Reach, defect_sliders, gain_sliders, plant_sliders, slider
 from flypend.pages.starts import plain, starts
 from flypend.paper import experiment, experiment_names
 from flypend.plants import Sampled
@@ -71,7 +71,7 @@ def sliders(setting: Setting) -> list[dict[str, Any]]:
     flight, law = setting.flight, setting.law
     out = gain_sliders(law, flight.vehicle, setting.gains)
     if isinstance(flight.plant, Sampled):
-        out += plant_sliders(flight.plant, flight.vehicle)
+        out += plant_sliders(flight.plant, flight.vehicle) + defect_sliders(flight.plant)
     return [*out, slider("duration", "flight", "duration", "s", flight.duration, Reach(2.0, LONGEST))]
 
 

@@ -11,6 +11,7 @@ from flypend.lab.setting import Setting
 from flypend.model import State, Vehicle, vehicle
 from flypend.model.state import SHAPES
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
+from flypend.plants.defects import NAMES, names_drawn
 from flypend.plants.sensors import SUITES, Sensors
 
 OWN = "from flypend.settings.laws import law_from\n"
@@ -81,8 +82,17 @@ def _plant(plant: AnyPlant) -> str | dict[str, Any]:
 
 
 def _suite(sensors: Sensors) -> str | dict[str, Any]:
-    """The name of the suite that `sensors` are, else their table."""
-    return next((name for name, suite in SUITES.items() if suite == sensors), sensors.to_dict())
+    """The name of the suite that `sensors` are, else a table on top of one that is told the same, else their own."""
+    every = {name: suite for name, suite in SUITES.items() if suite is not None}
+    named = next((name for name, suite in every.items() if suite in (sensors, sensors.replace(adjustable=()))), None)
+    if named is not None and not names_drawn(every[named]):
+        return named  # defects of size 0 leave no more than roundoff
+    base = next((name for name, suite in every.items() if suite.told == sensors.told), None)
+    if base is None:
+        return sensors.to_dict()
+    changed = {name: getattr(sensors, name) for name in NAMES if getattr(sensors, name) != getattr(every[base], name)}
+    adjustable = "all" if sensors == sensors.replace(adjustable="all") else list(sensors.adjustable)
+    return {"base": base, "adjustable": adjustable, **changed}
 
 
 def _record(record: Any) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from flypend.model.table import vehicle_names
 from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import plain
 from flypend.plants import Ideal
+from flypend.plants.knobs import LONGEST_SHIFT
 from flypend.plants.sensors import SUITES
 from flypend.settings.runfile import check_plain, run_of, table_at
 
@@ -31,7 +32,7 @@ KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
     "vehicle": ("base", "mount", "rotor_limits"),
     "law": ("name", "gains"),
-    "plant": ("base", "limits", "lag", "rate", "delay", "noise", "wind", "sensors", "seed"),
+    "plant": ("base", "limits", "lag", "rate", "delay", "noise", "wind", "sensors", "defects", "seed"),
     "start": (*SHAPES, "random"),
 }
 LONGEST, MOST_POKES = 30.0, 20
@@ -87,8 +88,8 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
             errors.only_known(key, given[key], known)
     if isinstance(given.get("plant"), dict) and given["plant"].get("base") == "ideal":
         given["plant"] = "ideal"  # the page keeps the fields of the sampled plant for later; ignore them
-    if isinstance(given.get("plant"), dict) and "sensors" in given["plant"]:
-        errors.one_of("plant.sensors", given["plant"]["sensors"], SUITES)  # tables would each be compiled
+    if isinstance(given.get("plant"), dict):
+        given["plant"] = _sensed(given["plant"])
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)
@@ -102,6 +103,34 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
     _check_size(others)
     flight = others.replace(law=law.bind(others.vehicle), plant=others.plant)
     return Setting(flight, law, pokes, start, own[named].where, own[named].stamp)
+
+
+def _sensed(plant: dict[str, Any]) -> dict[str, Any]:
+    """Return the table `plant` with sensors whose defects are adjustable, so that a size compiles nothing.
+
+    Its `defects` are sizes in place of those of the suite; each flight draws what lasts from them.
+    """
+    table = dict(plant)
+    name, sizes = table.pop("sensors", "perfect"), table.pop("defects", {})
+    suite = SUITES[errors.one_of("plant.sensors", name, SUITES)]  # tables would each be compiled
+    if not isinstance(sizes, dict):
+        raise InputError("plant.defects", "a table", repr(sizes)[:80])
+    if suite is None:
+        errors.only_known("plant.defects", sizes, ())
+        return table
+    every = suite.replace(adjustable="all")
+    errors.only_known("plant.defects", sizes, every.adjustable)
+    for defect, size in sizes.items():
+        errors.number(f"plant.defects.{defect}", size, at_least=0)
+    late = sum(sizes.get(defect, getattr(suite, defect)) for defect in ("untold_latency", "latency_jitter"))
+    if late > LONGEST_SHIFT:
+        expected = f"at most {LONGEST_SHIFT:g} s with latency_jitter"
+        raise InputError("plant.defects.untold_latency", expected, f"{late:g} s")
+    try:
+        every.replace(**sizes)
+    except InputError as error:
+        raise InputError(error.field.replace("sensors", "plant.defects"), error.expected, error.got) from None
+    return {**table, "sensors": {"base": name, "adjustable": "all", **sizes}}
 
 
 def _law(given: dict[str, Any], own: OwnLaws) -> Law | Controller:

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller, Law
 from flypend.model import Vehicle
@@ -14,6 +16,33 @@ from flypend.plants import MOTION_CAPTURE, Noise, Sampled, Wind
 _NOISE = {name: {"#": value} for name, value in asdict(MOTION_CAPTURE).items()}
 BISECTIONS = 12  # to a fifth of a per cent of a slider with a range of a factor of four either way
 FACTOR = 4.0  # a gain's slider spans its default divided and multiplied by this
+
+
+_DEGREE, _PERCENT, _MILLI = np.pi / 180, 0.01, 1e-3
+# Of each defect: words, the unit shown and its size in SI, and where its slider ends, in that unit: near twice the size
+# from which on fewer than half of hehn2011's random starts succeed on the suite "mocap" or "onboard", or at its limit.
+DEFECTS: Mapping[str, tuple[str, str, float, float]] = {
+    "gyro_bias": ("gyro bias", "rad/s", 1.0, 1.0),
+    "gyro_bias_walk": ("gyro bias, walk", "rad/s/√s", 1.0, 1.0),
+    "gyro_scale": ("gyro scale", "%", _PERCENT, 50.0),
+    "gyro_vibration": ("gyro vibration", "rad/s", 1.0, 10.0),
+    "accelerometer_bias": ("accelerometer bias", "m/s²", 1.0, 10.0),
+    "accelerometer_bias_walk": ("accelerometer bias, walk", "m/s²/√s", 1.0, 10.0),
+    "accelerometer_scale": ("accelerometer scale", "%", _PERCENT, 50.0),
+    "vibration": ("accelerometer vibration", "m/s²", 1.0, 100.0),
+    "imu_turned": ("IMU misaligned", "°", _DEGREE, 20.0),
+    "markers_off": ("markers off the pivot", "mm", _MILLI, 200.0),
+    "markers_turned": ("markers misaligned", "°", _DEGREE, 20.0),
+    "rod_markers_off": ("rod markers off", "°", _DEGREE, 20.0),
+    "joints_off": ("joint zeros off", "°", _DEGREE, 20.0),
+    "frame_off": ("cameras' origin off", "m", 1.0, 1.0),
+    "frame_turned": ("cameras' frame turned", "°", _DEGREE, 20.0),
+    "frame_scale": ("cameras' scale", "%", _PERCENT, 50.0),
+    "outliers": ("poses of another body", "%", _PERCENT, 50.0),
+    "bursts": ("bursts of loss", "1/s", 1.0, 5.0),
+    "untold_latency": ("poses older than told", "ms", _MILLI, 50.0),
+    "latency_jitter": ("jitter of poses", "ms", _MILLI, 30.0),
+}
 
 
 class Reach(NamedTuple):
@@ -97,6 +126,20 @@ def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
             put=[{"#": 1}, 0.0, 0.0],
         ),
         slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, Reach(0.0, high)),
+    ]  # fmt: skip
+
+
+def defect_sliders(plant: Sampled) -> list[dict[str, Any]]:
+    """Return the sliders of the adjustable defects of the sensors of `plant`, each from 0; see `slider`."""
+    if plant.sensors is None:
+        return []
+    return [
+        slider(
+            f"plant.defects.{name}", "defects", words, unit, getattr(plant.sensors, name) / factor, Reach(0.0, high),
+            put={"#": factor},
+        )
+        for name, (words, unit, factor, high) in DEFECTS.items()
+        if name in plant.sensors.adjustable and np.ndim(getattr(plant.sensors, name)) == 0
     ]  # fmt: skip
 
 

@@ -11,8 +11,14 @@ import numpy as np
 from flypend import errors
 from flypend.errors import InputError
 
+# Those that only say how large, how long or how fast another is.
+MEASURES = ("vibration_rate", "outlier_off", "outlier_turned", "burst_time")
+# Longest delay of poses, s, for which there is room if it may change: the smallest of these that is enough.
+ROOMS = (0.02, 0.04, 0.08, 0.16, 0.4)
 # Streams that cameras send, all of a frame together.
 POSES = ("position", "attitude", "rod")
+# The size of a defect where only that there is one matters.
+SOME = 0.1
 # Errors that last: their lengths, largest sizes and units.
 CONSTANT: Mapping[str, tuple[int, float, str]] = MappingProxyType(
     {
@@ -79,9 +85,53 @@ def check_defects(sensors: Any) -> None:
             raise InputError(f"sensors.{name}", f"0 without sensors.{stream}", repr(getattr(sensors, name)))
 
 
+def check_adjustable(sensors: Any) -> None:
+    """Put the names in `adjustable` of `sensors` in order, those possible in place of "all". Raises InputError."""
+    possible = [
+        name for name in NAMES if name not in MEASURES and (name not in NEEDS or NEEDS[name] in sensors.streams)
+    ]
+    given = possible if sensors.adjustable == "all" else sensors.adjustable
+    if not isinstance(given, list | tuple):
+        raise InputError("sensors.adjustable", "'all' or names of defects", repr(given))
+    for name in given:
+        errors.one_of("sensors.adjustable", name, possible)
+    object.__setattr__(sensors, "adjustable", tuple(name for name in possible if name in given))
+
+
+def present(sensors: Any, name: str) -> bool:
+    """Whether the defect `name` is part of the program: it is not 0, or adjustable."""
+    return name in sensors.adjustable or bool(np.any(getattr(sensors, name)))
+
+
 def names_drawn(sensors: Any) -> list[str]:
     """Return the names of errors that are drawn anew for each flight."""
-    return [name for name in CONSTANT if np.ndim(value := getattr(sensors, name)) == 0 and value]
+    return [name for name in CONSTANT if np.ndim(getattr(sensors, name)) == 0 and present(sensors, name)]
+
+
+def shifts(sensors: Any) -> bool:
+    """Whether each pose is late by a part of its own, which is a number at run time."""
+    return present(sensors, "latency_jitter") or "untold_latency" in sensors.adjustable
+
+
+def room(sensors: Any) -> float:
+    """Return the longest such part for which there is room, s."""
+    return next(longest for longest in ROOMS if sensors.untold_latency + sensors.latency_jitter <= longest)
+
+
+def blank(sensors: Any) -> Any:
+    """Return `sensors` without what is a number at run time: if equal, they share one program.
+
+    It keeps which defects there are, which of them are given as vectors, and the room for late poses.
+    """
+    sizes: dict[str, Any] = {name: getattr(sensors.told, name) for name in MEASURES}
+    for name in NAMES:
+        if name not in MEASURES and (name != "untold_latency" or shifts(sensors)):
+            some = SOME if present(sensors, name) else 0.0
+            sizes[name] = (some,) * CONSTANT[name][0] if np.ndim(getattr(sensors, name)) else some
+    if shifts(sensors):
+        own = present(sensors, "latency_jitter")
+        sizes |= {"untold_latency": room(sensors) / (1 + own), "latency_jitter": room(sensors) / 2 if own else 0.0}
+    return sensors.replace(**sizes)
 
 
 def random_numbers(sensors: Any) -> dict[str, int]:
@@ -93,4 +143,4 @@ def random_numbers(sensors: Any) -> dict[str, int]:
         "bursts": 1,
         "latency_jitter": 4,
     }
-    return {name: count for name, count in wanted.items() if getattr(sensors, name)}
+    return {name: count for name, count in wanted.items() if present(sensors, name)}

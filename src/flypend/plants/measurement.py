@@ -19,6 +19,7 @@ from flypend.plants.plant import Wind
 
 # Each control tick draws 24 numbers: the first 18 are for the measurement, the other 6 for the gusts.
 MEASUREMENT, GUSTS = slice(0, 18), slice(18, 24)
+NEVER = -1e3  # a standard normal number is never below it
 TINY = 1e-300  # keeps draws that are all zero, as without any randomness, from making NaN
 NOISE_SIZE, WIND_SIZE = 6, 12
 # What `gusts` remembers: the gust, ticks since the interval of a knock began, and the tick of its knock, not rounded.
@@ -95,3 +96,38 @@ def uniform(draws: Numbers) -> Scalar:
 def direction(draws: Numbers) -> Vector:
     """Return a unit vector uniform on S² from three normal numbers; 0 from zeros."""
     return draws / ca.sqrt(ca.fmax(ca.sumsqr(draws), TINY))
+
+
+# Coefficients of Wichura's algorithm AS 241, Applied Statistics 37 (1988), PPND16: numerators and denominators of
+# rational functions, of 0.425² − (p − 1/2)² and of √(−ln p) − 1.6, from the highest power down.
+_MIDDLE = (
+    (2.5090809287301226727e3, 3.3430575583588128105e4, 6.7265770927008700853e4, 4.5921953931549871457e4,
+     1.3731693765509461125e4, 1.9715909503065514427e3, 1.3314166789178437745e2, 3.3871328727963666080),
+    (5.2264952788528545610e3, 2.8729085735721942674e4, 3.9307895800092710610e4, 2.1213794301586595867e4,
+     5.3941960214247511077e3, 6.8718700749205790830e2, 4.2313330701600911252e1, 1.0),
+)  # fmt: skip
+_TAIL = (
+    (7.7454501427834140764e-4, 2.27238449892691845833e-2, 2.41780725177450611770e-1, 1.27045825245236838258,
+     3.64784832476320460504, 5.76949722146069140550, 4.63033784615654529590, 1.42343711074968357734),
+    (1.05075007164441684324e-9, 5.47593808499534494600e-4, 1.51986665636164571966e-2, 1.48103976427480074590e-1,
+     6.89767334985100004550e-1, 1.67638483018380384940, 2.05319162663775882187, 1.0),
+)  # fmt: skip
+LEAST_PROBABILITY = 1e-10  # above which the tail is that of AS 241
+
+
+def normal_quantile(probability: Scalar) -> Scalar:
+    """Return below what a standard normal number is with this `probability`, in CasADi.
+
+    From `LEAST_PROBABILITY` on, to 16 digits; below it is that of none, −1000.
+    """
+    p = ca.fmin(ca.fmax(probability, LEAST_PROBABILITY), 1 - LEAST_PROBABILITY)
+    q = p - 0.5
+    middle = q * _ratio(_MIDDLE, 0.425**2 - q**2)
+    tail = _ratio(_TAIL, ca.sqrt(-ca.log(ca.fmin(p, 1 - p))) - 1.6)
+    found = ca.if_else(q**2 < 0.425**2, middle, ca.if_else(q < 0, -tail, tail))
+    return ca.if_else(probability < LEAST_PROBABILITY, NEVER, found)
+
+
+def _ratio(coefficients: tuple[tuple[float, ...], tuple[float, ...]], r: Scalar) -> Scalar:
+    above, below = (ca.polyval(ca.DM(list(some)), r) for some in coefficients)
+    return above / below

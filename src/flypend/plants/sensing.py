@@ -78,24 +78,25 @@ def memory_record(sensors: Sensors, period: float) -> Record:
 def _late(sensors: Sensors, name: str) -> Sensor:
     """Return the stream `name` with the latency that it has at least, told or not."""
     sensor = sensors.streams[name]
-    untold = sensors.untold_latency if name in POSES else 0.0
+    untold = sensors.untold_latency if name in POSES and not defects.shifts(sensors) else 0.0
     return replace(sensor, latency=sensor.latency + untold) if untold else sensor
 
 
-def _jitters(sensors: Sensors, name: str) -> bool:
-    return sensors.latency_jitter > 0 and name in POSES
+def _shifts(sensors: Sensors, name: str) -> bool:
+    return name in POSES and defects.shifts(sensors)
 
 
 def _waiting(sensors: Sensors, name: str, period: float) -> int:
     """Return the number of control ticks whose readings of the stream `name` may still be under way."""
     when = timing(_late(sensors, name), period)
-    latest = int(np.ceil((when.whole + when.rest) + sensors.latency_jitter / period)) + 1
-    return latest if _jitters(sensors, name) else when.waiting
+    if not _shifts(sensors, name):
+        return when.waiting
+    return int(np.ceil((when.whole + when.rest) + defects.room(sensors) / period)) + 1
 
 
 def _entry(sensors: Sensors, name: str) -> int:
     """Return how many numbers of a reading wait: what is read, its age, and its own part of the latency, if any."""
-    return WIDTH[name] + 1 + _jitters(sensors, name)
+    return WIDTH[name] + 1 + _shifts(sensors, name)
 
 
 def draws_of(sensors: Sensors) -> dict[str, tuple[list[int], int | None]]:
@@ -155,8 +156,10 @@ def first_memory(sensors: Sensors, period: float, state: Numbers, draws: Numbers
     return ca.vertcat(state, wrong, *(ca.DM(queue) for queue in queues))
 
 
-def sensing(sensors: Sensors, vehicle: Vehicle, period: float) -> ca.Function:
+def sensing(sensors: Sensors, vehicle: Vehicle, period: float, *, sized: bool = False) -> ca.Function:
     """Build the CasADi function (memory, t, state (24,), draws) → (memory, readings) of one control tick, e₃ up.
+
+    If it is `sized`, the sizes of defects (`defect_program.size_numbers`) are its last input.
 
     Parameters
     ----------
@@ -174,7 +177,9 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float) -> ca.Function:
     before, now = State.symbolic(past["state"]), State.symbolic(packed)
     force = _specific_force(before, now, vehicle, period)
     chance = {name: draws[some] for name, some in _defect_draws(sensors).items()}
-    wrong = Defects(sensors, period, t, before.y, now.y, past.get("defects", ca.SX(0, 1)), chance)
+    numbers = defect_program.size_numbers(sensors, period)
+    sizes = ca.SX.sym("sizes", len(numbers)) if sized else ca.SX(numbers)
+    wrong = Defects(sensors, period, t, before.y, now.y, past.get("defects", ca.SX(0, 1)), chance, sizes)
     kept, readings = [packed, wrong.after], []
     for name, (noise, lost) in draws_of(sensors).items():
         sensor = _late(sensors, name)
@@ -189,15 +194,15 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float) -> ca.Function:
         if (burst := wrong.lost(name)) is not None:
             since = ca.if_else(burst, NOTHING, since)
         entry = ca.vertcat(values, since)
-        if (own := wrong.jitter(name)) is not None:
+        if (own := wrong.shift(name)) is not None:
             entry = ca.vertcat(entry, own)
         queue = ca.vertcat(entry, past.get(name, ca.SX(0, 1)))
         kept.append(queue[: -entry.numel()])
         entries = ca.vertsplit(queue, entry.numel())
-        found = _deliver(entries, when, period) if own is None else _jitter(entries, sensor.latency, period)
+        found = _deliver(entries, when, period) if own is None else _shifted(entries, sensor.latency, period)
         readings.append(_report_age(found, sensor.latency - sensors.streams[name].latency))
     outputs = ca.cse([ca.densify(ca.vertcat(*kept)), ca.densify(ca.vertcat(*readings))])
-    return ca.Function("sense", [memory, t, packed, draws], outputs)
+    return ca.Function("sense", [memory, t, packed, draws, *[sizes] * sized], outputs)
 
 
 def _report_age(reading: Numbers, untold: float) -> Numbers:
@@ -208,7 +213,7 @@ def _report_age(reading: Numbers, untold: float) -> Numbers:
     return ca.vertcat(reading[:-1], ca.if_else(age >= 0, ca.fmax(age - untold, 0), NOTHING))
 
 
-def _jitter(entries: list[Any], latency: float, period: float) -> Numbers:
+def _shifted(entries: list[Any], latency: float, period: float) -> Numbers:
     """Return numbers and age, less its own part of the latency, of the newest of `entries` that arrives at this tick.
 
     An entry is numbers, age at its tick, and its own part; it arrives at the first tick at which it is old enough.

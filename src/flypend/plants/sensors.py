@@ -147,6 +147,9 @@ class Sensors:
         By how much poses are older than their age says, s.
     latency_jitter : float
         By how much more poses may be older, s: each frame uniformly between 0 and this.
+    adjustable : tuple of str, or "all"
+        Defects that are part of the program of the sensors even where they are 0: a change of their sizes compiles
+        nothing, and a flight in pieces takes them anew with each piece. All of them draw random numbers.
 
     Raises
     ------
@@ -192,6 +195,7 @@ class Sensors:
     burst_time: float = 0.1
     untold_latency: float = 0.0
     latency_jitter: float = 0.0
+    adjustable: Any = ()
 
     def __post_init__(self) -> None:
         for name in STREAMS:
@@ -215,6 +219,7 @@ class Sensors:
             errors.number("sensors.command_delay", self.command_delay, at_least=0, at_most=0.5, unit="s")
         self._check_complete()
         defects.check_defects(self)
+        defects.check_adjustable(self)
 
     def _check_complete(self) -> None:
         needed = ["position", "gyro"]
@@ -238,7 +243,7 @@ class Sensors:
 
     def _usual(self) -> dict[str, Any]:
         """Return what the fields of the defects are without any."""
-        return {entry.name: entry.default for entry in fields(self) if entry.name in defects.NAMES}
+        return {entry.name: entry.default for entry in fields(self) if entry.name in (*defects.NAMES, "adjustable")}
 
     def following(self, departure: Any) -> Any:
         """Return the squared bandwidth, 1/s², at which the estimator follows the force that an accelerometer tells.

@@ -58,7 +58,7 @@ def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
         return law
     if not isinstance(plant, Sampled) or plant.sensors is None or plant.sensors.rates != "estimated":
         return law.calmed(0.0)
-    return _calm(law.calmed(0.0), plant.sensors, 1 / plant.rate)
+    return _calm(law.calmed(0.0), plant.sensors.told, 1 / plant.rate)
 
 
 @lru_cache(maxsize=64)

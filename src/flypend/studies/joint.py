@@ -212,6 +212,13 @@ class Errors:
             changes["sensors"] = plant.sensors.replace(**wrong)
         return plant.replace(**changes)
 
+    def variant(self, scales: Mapping[str, float]) -> Sampled:
+        """Return the `world` of `scales` with all defects in its program: only their sizes differ between variants."""
+        plant = self.world(scales)
+        if plant.sensors is None:
+            return plant
+        return plant.replace(sensors=plant.sensors.replace(adjustable=tuple(self._defects)))
+
     def _written(self, name: str) -> Any:
         if name == "inertia":
             return np.diag(self._vehicle.inertia)
@@ -300,7 +307,9 @@ def joint(
     few = flight.replace(starts=starts["random"][:VARIANT_RUNS].in_frame(bound.e3))
     scales: dict[float, Count] = {}
     for scale in SCALES:
-        (scales[scale],) = _fly(few, [worst.world(dict.fromkeys(worst.names, scale))], partial(progress, "errors grow"))
+        (scales[scale],) = _fly(
+            few, [worst.variant(dict.fromkeys(worst.names, scale))], partial(progress, "errors grow")
+        )
         if scales[scale].rate < LEAST_RATE:
             return Joint(tasks, len(drawn), scales, *_explain(few, worst, scale, progress))
     return Joint(tasks, len(drawn), scales)
@@ -311,7 +320,7 @@ def _explain(
 ) -> tuple[tuple[Cause, ...], tuple[str, ...], float, Count]:
     """Return causes, what to calibrate, to which share of its size, and the flights there."""
     names, whole = wrong.names, dict.fromkeys(wrong.names, scale)
-    variants = [wrong.world({name: scale}) for name in names] + [wrong.world(whole | {name: 0.0}) for name in names]
+    variants = [wrong.variant({name: scale}) for name in names] + [wrong.variant(whole | {name: 0.0}) for name in names]
     found = _fly(flight, variants, partial(progress, "each error alone, and off"))
     causes = [
         Cause(name, wrong.size(name, scale), alone, without)
@@ -323,11 +332,11 @@ def _explain(
     for one in causes:
         off.append(one.name)
         if len(off) > 1:
-            (kept,) = _fly(flight, [wrong.world(whole | dict.fromkeys(off, 0.0))], partial(progress, "several off"))
+            (kept,) = _fly(flight, [wrong.variant(whole | dict.fromkeys(off, 0.0))], partial(progress, "several off"))
         if kept.rate >= LEAST_RATE:
             break
     for share in SHARES[:-1]:
-        (count,) = _fly(flight, [wrong.world(whole | dict.fromkeys(off, share * scale))], partial(progress, "shares"))
+        (count,) = _fly(flight, [wrong.variant(whole | dict.fromkeys(off, share * scale))], partial(progress, "shares"))
         if count.rate >= LEAST_RATE:
             return tuple(causes), tuple(off), share, count
     return tuple(causes), tuple(off), 0.0, kept
@@ -344,7 +353,7 @@ def _fly_tasks(
     speed = float(np.sqrt(vehicle.g * vehicle.l))
 
     def fly(place: int) -> dict[str, Count]:
-        world, found = drawn[place].world(dict.fromkeys(drawn[place].names, 1.0)), {}
+        world, found = drawn[place].variant(dict.fromkeys(drawn[place].names, 1.0)), {}
         for name, some in all_starts.items():
             size = speed if name == "pokes" else NOT_YET
             mine = some[place :: len(drawn)]

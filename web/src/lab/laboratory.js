@@ -136,7 +136,8 @@ export class Laboratory {
     const value = structuredClone(this.setting.value);
     if (group === "gains") value.law.gains = {};
     else if (group === "place") delete value.origin;
-    else Object.assign(value, { plant: sensed({ base: value.plant.base }, value.plant.sensors), vehicle: { base: value.vehicle.base, mount: value.vehicle.mount } });
+    else if (group === "defects") delete value.plant.defects;
+    else Object.assign(value, { plant: { ...sensed({ base: value.plant.base }, value.plant.sensors), ...kept(value.plant) }, vehicle: { base: value.vehicle.base, mount: value.vehicle.mount } });
     this.setting.replace(value);
   }
 
@@ -292,6 +293,7 @@ export class Laboratory {
       this.#say("");
       this.adopt(reply.start);
       this.panel.flight(reply);
+      this.panel.fell(reply.verdict.good ? "" : "Fails");
       this.#barred();
       if (this.viewer.stage && reply.verdict.part && this.viewer.flights[0].end < AT_ONCE) this.#notice(`${capital(reply.verdict.reason)} at the start. Shaded directions are taken.`, ["Move to a free start", () => this.free()]);
       this.story?.flown(this.setting.value, reply.sliders);
@@ -428,7 +430,10 @@ export class Laboratory {
 
 const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
-/** A plant with the `sensors` of that name, which have noise of their own; undefined for perfect ones. */
-function sensed({ noise, sensors: old, ...plant }, sensors) {
+/** What a plant tells of its sensors' defects. */
+const kept = ({ defects }) => (defects ? { defects } : {});
+
+/** A plant with the `sensors` of that name, which have noise and defects of their own; undefined for perfect ones. */
+function sensed({ noise, sensors: old, defects, ...plant }, sensors) {
   return sensors && sensors !== "perfect" ? { ...plant, sensors } : { ...plant, ...(noise && { noise }) };
 }

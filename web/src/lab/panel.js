@@ -33,6 +33,8 @@ const html = (chosen, served) => `
   <section class="has-place"><h2>Place to hold <button type="button" class="small reset" title="The reference as it is by itself">reset</button></h2><div class="place"></div></section>
   <section class="has-gains"><h2>Gains <button type="button" class="small reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
   <section class="has-plant"><h2>Plant <button type="button" class="small reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
+  <section class="has-defects"><h2>Sensor defects <button type="button" class="small reset" title="The sensors as they are by themselves">reset</button></h2>
+    <p class="hint fell" role="status"></p><div class="defects"></div></section>
   ${served ? `<section><h2>Export</h2>
     <div class="row two"><button type="button" data-export="toml">TOML</button><button type="button" data-export="python">Python</button></div>
     <div class="export" hidden><textarea readonly rows="9" spellcheck="false" aria-label="Export"></textarea>
@@ -49,7 +51,7 @@ export class Panel {
     this.bar = document.createElement("section");
     Object.assign(this.bar, { className: "bar", innerHTML: BAR, ariaLabel: "Controls" });
     parent.querySelector("header").after(this.bar, this.root); // before the picture, for those who go by keys
-    this.groups = Object.fromEntries(["gains", "plant", "flight", "place"].map((name) =>
+    this.groups = Object.fromEntries(["gains", "plant", "flight", "place", "defects"].map((name) =>
       [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
     this.selects = [];
     if (chosen) this.#choices();
@@ -93,6 +95,7 @@ export class Panel {
     this.#find(".redo").addEventListener("click", () => this.lab.setting.redo());
     this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
     this.#find(".has-plant .reset").addEventListener("click", () => this.lab.reset("plant"));
+    this.#find(".has-defects .reset").addEventListener("click", () => this.lab.reset("defects"));
     this.#find(".has-place .reset").addEventListener("click", () => this.lab.reset("place"));
   }
 
@@ -223,6 +226,14 @@ export class Panel {
     this.#find(".has-plant").hidden = this.groups.plant.sliders.length === 0;
     this.#find(".has-gains").hidden = this.groups.gains.sliders.length === 0;
     this.#find(".has-place").hidden = this.groups.place.sliders.length === 0;
+    this.#find(".has-defects").hidden = this.groups.defects.sliders.length === 0;
+  }
+
+  /** Say at which sizes of the sensors' defects the flight `fails` (what it does), if there are any; "" takes it back. */
+  fell(fails) {
+    const present = this.groups.defects.sliders.filter(({ facts }) => facts.value > 0);
+    const sizes = present.map(({ facts, output }) => `${facts.words} ${output.textContent}`).join(", ");
+    this.#find(".fell").textContent = fails && sizes && `${fails} at ${sizes}.`;
   }
 
   /** Say `message` beside the control of `field`, or beside the one at `path` that was moved last; "" takes it back. */

@@ -15,7 +15,7 @@ const PARTS = {
   start: table({ x: vector, x_dot: vector, R: list(3, vector), omega: vector, y: vector, y_dot: vector, random: whole }),
   law: table({ name: is("string"), gains: numbers }),
   vehicle: table({ base: is("string"), mount: is("string"), rotor_limits: list(2) }),
-  plant: table({ base: is("string"), sensors: is("string"), lag: number, delay: number, seed: whole, noise: numbers, wind: table(WIND) }),
+  plant: table({ base: is("string"), sensors: is("string"), lag: number, delay: number, seed: whole, noise: numbers, defects: numbers, wind: table(WIND) }),
   pokes: every((poke) => table({}) (poke) && number(poke.time) && is("string")(poke.on) && vector(poke.velocity)),
   duration: number,
   origin: numbers,

@@ -11,9 +11,10 @@ export const isWhole = (start) => !("random" in start) && ORDER.every((name) => 
 
 /** Gains and knobs that `setting` tells, for a module with `facts`; the reference moves in a `live` flight alone. */
 export function turned(setting, facts, live = false) {
-  const { plant = {}, vehicle = {}, law = {}, origin = {} } = setting, { wind = {} } = plant;
+  const { plant = {}, vehicle = {}, law = {}, origin = {} } = setting, { wind = {} } = plant, sizes = facts.knobs.defects;
   const told = {
     lag: single(plant.lag), delay: single(clamp(plant.delay, 0, facts.delay)), noise: plant.noise && facts.noise.map((name) => plant.noise[name] ?? 0),
+    defects: plant.defects && facts.defects.map((name, i) => plant.defects[name] ?? sizes[i]),
     on_vehicle: wind.on_vehicle, on_bob: wind.on_bob, gust_on_vehicle: single(wind.gust_on_vehicle), gust_on_bob: single(wind.gust_on_bob),
     rotor_limits: vehicle.rotor_limits, origin: live ? ["x", "y", "z"].map((name) => origin[name] ?? 0) : undefined,
   };

@@ -56,7 +56,8 @@ export class Running {
   #begin(tick) {
     const { lab } = this, { clock } = lab.viewer;
     lab.adopt(lab.link.whole(lab.setting.value).start);
-    Object.assign(this, { kind: kind(lab.setting.value), pokes: [], poked: 0, pulling: null, due: 0, asked: true, flight: null });
+    Object.assign(this, { kind: kind(lab.setting.value), pokes: [], poked: 0, pulling: null, due: 0, asked: true, flight: null, stood: false });
+    lab.panel.fell("");
     this.change();
     clock.follow((elapsed, speed) => this.#drive(elapsed * speed));
     lab.link.begin(lab.setting.value, Math.max(tick, 1), (piece) => this.#flown(piece));
@@ -116,8 +117,17 @@ export class Running {
     const { y } = this.flight.at(this.flight.end), sign = this.flight.e3 === "up" ? 1 : -1;
     const lean = (Math.acos(clamp(sign * y[2], -1, 1)) * 180) / Math.PI, state = this.flight.state(this.flight.end);
     const words = this.over ? verdict.words : state === "done" ? "live: upright" : `live: recovering, rod ${lean.toFixed(0)}° from upright`;
+    this.#fall(state, sign * y[2] < 0);
     this.lab.verdict = { words, good: state === "done", state };
     judge(this.lab.words, { words, state, reason: verdict.reason });
+  }
+
+  /** Once the rod has been upright (`state`), say at which sizes of the sensors' defects it is `down`. */
+  #fall(state, down) {
+    this.stood ||= state === "done";
+    if (!this.stood || !(down || this.over)) return;
+    this.stood = false;
+    this.lab.panel.fell(`Fell after ${this.flight.end.toFixed(1)} s`);
   }
 
   /** For tests: how far the flight is, and its last state. */

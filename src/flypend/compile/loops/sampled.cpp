@@ -135,7 +135,7 @@ extern "C" void kernel(
     auto told = [&](V time, V *state) WITHIN {
         V *result = MEASURES || SENSES ? measured : state - 1;
         if (MEASURES) measure(state, draws, noise, measured + 1);
-        if (SENSES) sense(sensed, &time, state, draws, sensed, measured + 1);
+        if (SENSES) sense(sensed, &time, state, draws, noise, sensed, measured + 1);
         *result = time;
         return result;
     };

@@ -48,7 +48,8 @@ void strike(const V *state, const V *impulses, V *next);
 void judge(const V *t, const V *state, const V *gains, V *values);
 void sense_begin(const V *state, const V *draws, V *memory);
 void sense_estimate(const V *state, const V *draws, V *estimate);
-void sense(const V *memory, const V *t, const V *state, const V *draws, V *next, V *readings);
+void sense(
+    const V *memory, const V *t, const V *state, const V *draws, const V *sizes, V *next, V *readings);
 }
 
 constexpr int64_t OMEGA = 15;  // where the angular velocity begins in a state

@@ -1,9 +1,9 @@
 """Flights in pieces: a kernel that flies some control ticks, returns, and goes on from where it stopped.
 
-Between two pieces anything may change that is no structure: gains, rotor lag and limits, delay, noise, wind, where the
-law believes its origin, and velocities by an impulse. Board, plant, noise and commands under way keep their memory, so
-that a flight in pieces equals one that is not interrupted, bit by bit. The same writer makes machine code and the
-WebAssembly of the pages (`flypend.flight.kernels.web`).
+Between two pieces anything may change that is no structure: gains, rotor lag and limits, delay, noise, sizes of the
+sensors' adjustable defects, wind, where the law believes its origin, and velocities by an impulse. Board, plant, noise
+and commands under way keep their memory, so that a flight in pieces equals one that is not interrupted, bit by bit. The
+same writer makes machine code and the WebAssembly of the pages (`flypend.flight.kernels.web`).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from flypend.flight.outcome import Outcome
 from flypend.model import State
 from flypend.model.state import SIZE, convert_packed
 from flypend.plants.equations import struck
-from flypend.plants.knobs import KNOBS, LONGEST_DELAY, STRETCHES, depth, knob_values, turn_knobs
+from flypend.plants.knobs import KNOBS, LONGEST_DELAY, LONGEST_SHIFT, STRETCHES, depth, knob_values, turn_knobs
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import measurement
 from flypend.plants.noise import Noise
@@ -61,8 +61,8 @@ def pieces_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
 def pieces_structure(plant: Sampled) -> Sampled:
     """Return `plant` without the numbers that flights in pieces take as inputs: equal ones share machine code.
 
-    Its delay is the longest that they take; an estimator goes on to assume the delay of `plant`. Raises InputError for
-    a plant that is not simulated by the built-in equations.
+    Its delays are the longest that they take; an estimator goes on to assume the delay of `plant`. Raises InputError
+    for a plant that is not simulated by the built-in equations.
     """
     if plant.engine != "equations":
         raise InputError("plant.engine", "equations, for a flight in pieces", plant.engine)
@@ -71,6 +71,9 @@ def pieces_structure(plant: Sampled) -> Sampled:
         noise = noise or Noise()
     else:
         sensors = sensors.replace(command_delay=delay_of(plant))
+        if {"untold_latency", "latency_jitter"} & set(sensors.adjustable):
+            longest = max(sensors.untold_latency, LONGEST_SHIFT - sensors.latency_jitter)
+            sensors = sensors.replace(untold_latency=longest)
     whole = plant.replace(sensors=sensors, noise=noise, wind=plant.wind or _GUSTY)
     return structure(whole).replace(delay=max(plant.delay, LONGEST_DELAY))
 

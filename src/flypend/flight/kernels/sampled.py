@@ -34,6 +34,8 @@ from flypend.model import State, Vehicle
 from flypend.model.outline import extent
 from flypend.model.state import FLIP_PACKED, MAX_STATE, SIZE, convert_packed
 from flypend.plants.actuation import rate_loop
+from flypend.plants.defect_program import size_numbers
+from flypend.plants.defects import blank
 from flypend.plants.equations import rotor_step
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
@@ -72,7 +74,7 @@ class Ticks(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SampledKernel:
-    """A compiled sampled flight. The plant's lag, noise and wind are inputs: see `structure`.
+    """A compiled sampled flight. The plant's lag, noise, defects and wind are inputs: see `structure`.
 
     Parameters
     ----------
@@ -185,15 +187,16 @@ class SampledKernel:
 
 
 def structure(plant: Plant) -> Plant:
-    """Return `plant` without its seed and the machine code's inputs: lag, noise and wind.
+    """Return `plant` without its seed and the machine code's inputs: lag, noise, sizes of sensors' defects, and wind.
 
-    It keeps whether there is noise, wind, knocks, or anything random, and whether rotors rise as they fall.
+    It keeps whether there is noise, wind, knocks, or anything random, which defects there are, and whether rotors rise
+    as they fall.
     """
     knocks = plant.wind is not None and plant.wind.knocks
     gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))), knock_on_vehicle=float(knocks))
     return plant.replace(
         lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=_without_lag(plant),
-        spin_up=1.0 if plant.spin_up == 1.0 else 2.0,
+        spin_up=1.0 if plant.spin_up == 1.0 else 2.0, sensors=plant.sensors and blank(plant.sensors),
     )  # fmt: skip
 
 
@@ -208,6 +211,7 @@ def plant_numbers(loop: Loop) -> Numbers:
     period = 1 / plant.rate
     timings = [_timing(true, plant, while_ / steps) for _, while_, steps in _segments(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
+    noise += [] if plant.sensors is None else [size_numbers(plant.sensors, period)]
     wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
     return np.concatenate([*timings, *noise, *wind])
 
@@ -320,7 +324,7 @@ def _sensing(loop: Loop) -> Sensing:
     return Sensing(
         begin=lower(ca.Function("sensors_begin", [state, draws], [memory])),
         estimate=lower(first_estimate(sensors)),
-        sense=lower(sensing(sensors, loop.vehicle, period)),
+        sense=lower(sensing(sensors, loop.vehicle, period, sized=True)),
         tick=START_TICK,
     )
 

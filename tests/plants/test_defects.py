@@ -350,7 +350,7 @@ def test_the_estimator_is_told_of_no_defect():
 
     def programs(sensors):
         made = Filter(Loop(VEHICLE, LAW.bind(VEHICLE), Plant(sensors=sensors)), Believed.numbers(VEHICLE))
-        return [f.serialize() for f in (made.begun(), made.correct(), made.carry())]
+        return [f.serialize() for f in (made.begin(), made.correct(), made.carry())]
 
     worst = EVERY.replace(**ONE)
     assert programs(worst) == programs(EVERY)

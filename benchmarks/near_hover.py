@@ -87,6 +87,21 @@ def largest(stable):
     return k
 
 
+def wander(vehicle, A, B, K, errors):
+    """Return how far the bob moves at most, m, for each of the `errors` of measurement, however it varies in time."""
+    bob, far = np.zeros((2, len(A))), []
+    bob[0, 0] = bob[1, 1] = 1
+    bob[0, 11] = bob[1, 12] = vehicle.l
+    F = expm((A + B @ K) * 1e-3)
+    for _, first, size in errors:
+        response, total = B @ K[:, first : first + 1], 0.0
+        for _ in range(int(FOR / 1e-3)):
+            total = total + np.abs(bob @ response) * 1e-3
+            response = F @ response
+        far.append(size * float(np.linalg.norm(total)))
+    return far
+
+
 def main():
     """Print, for each vehicle and law, the largest period and delay, and how far errors of measurement move the bob."""
     print("| vehicle | slowest decay, 1/s | sampled at 500 Hz, 1/s | largest period, ms | largest delay, ms |", end="")
@@ -101,19 +116,10 @@ def main():
             sampled = -np.log(radius(A, B, K, 2e-3)) / 2e-3
             period = 1e3 * STEP * largest(lambda k, of=(A, B, K): radius(*of, k * STEP) < 1)
             delay = largest(lambda k, of=(A, B, K): radius(*of, 1e-3, k) < 1)
-            bob = np.zeros((2, len(A)))
-            bob[0, 0] = bob[1, 1] = 1
-            bob[0, 11] = bob[1, 12] = vehicle.l
-            F, far = expm(loop * 1e-3), []
-            for _, first, size in ERRORS:
-                response, total = B @ K[:, first : first + 1], 0.0
-                for _ in range(int(FOR / 1e-3)):
-                    total = total + np.abs(bob @ response) * 1e-3
-                    response = F @ response
-                far.append(1e3 * size * float(np.linalg.norm(total)))
             label = f"{name}, lag" if lag else name
             print(f"| {label} | {decay:.3f} | {sampled:.3f} | {period:.1f} | {delay} |", end="")
-            print("".join(f" {value:.2g} |" for value in far), flush=True)
+            far = wander(vehicle, A, B, K, ERRORS)
+            print("".join(f" {1e3 * value:.2g} |" for value in far), flush=True)
 
 
 if __name__ == "__main__":

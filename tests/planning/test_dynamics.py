@@ -136,8 +136,8 @@ def test_the_terms_are_the_gradient_of_the_barrier(maps, structure):
         point = (forth(state, delta), command + upsilon, 2.0 + epsilon, numbers, vehicle)
         return values(*point, np.full(barrier.inequalities, -np.inf), mu)
 
-    (_, violation, *wished), slack = merit(np.zeros(20), np.zeros(4), 0.0)
-    assert violation == 0
+    (_, violation, lack, *wished), slack = merit(np.zeros(20), np.zeros(4), 0.0)
+    assert violation == lack == 0
     assert bool(wished) == bool(structure.cost)
     assert np.all(slack > 0)
     cost = terms(state, command, 2.0, numbers, vehicle, slack, mu / slack, mu)

@@ -11,6 +11,8 @@ from flypend.planning.constraints import broken
 from flypend.planning.dynamics import LEAST_ROOM, Units
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
+from flypend.planning.search import together
+from flypend.planning.verdict import plans_of
 from flypend.plants.equations import EquationsEngine
 
 HEHN = fp.vehicle("hehn2011")
@@ -222,6 +224,21 @@ def test_iterations_bring_a_plan_nearer_to_conditions_of_first_order(swing_up):
     early, late = (plan_within(asked, 12.5, iterations, {}) for iterations in (12, 27))
     assert late.stationarity < 0.1 * early.stationarity
     assert 0 < swing_up.stationarity < 0.01
+
+
+@pytest.mark.parametrize(("start", "knowing", "by_chance"), [(12, False, True), (2, True, False)])
+def test_guesses_race_with_and_without_constraints(start, knowing, by_chance):
+    """From some starts only those find a way that know of the walls, from others only those that do not."""
+    walls, rounds = ((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf)), {4: 4, 8: 2}
+    kept = fp.Constraints(box=walls)
+    asked = request(HEHN, fp.random_starts(400, 9001)[start], "excursion", (0, 0, 0), kept=kept)
+    free = asked.unconstrained()
+    races = together(asked, 12.5, np.inf, 22, rounds), together(free, 12.5, np.inf, 22, rounds, kept=asked)
+    assert [bool(plan) for plan in plans_of([asked] * 2, races, 12.5)] == [knowing, by_chance]
+    plan = plan_within(asked, 12.5, 22, rounds)
+    assert plan
+    points = np.stack([plan.x, plan.x + HEHN.reach * plan.y])[..., :2]
+    assert np.max(np.abs(points)) < 0.6 + 1e-3
 
 
 def test_a_time_limit_is_kept_and_told():

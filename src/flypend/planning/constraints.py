@@ -151,6 +151,13 @@ class Constraints:
         for name, value in found.items():
             object.__setattr__(self, name, value)
 
+    @property
+    def loose(self) -> bool:
+        """Whether a flight that does not know of them often keeps them: walls, a speed, or one's own."""
+        return not {"box", "floor", "ceiling", "speed", "keep"}.isdisjoint(self.given) and not (
+            self.windows or self.lean or len(self.points)
+        )
+
     def _walls(self) -> Array | None:
         walls = np.array([[-np.inf] * 3, [np.inf] * 3])
         if self.box is not None:

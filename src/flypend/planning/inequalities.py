@@ -254,19 +254,20 @@ class Barrier:
         return ca.Function(name, inputs, ca.cse([ca.densify(v) for v in ca.substitute(outputs, self._moves, still)]))
 
     def values(self) -> ca.Function:
-        """Return (*point, trial slack, μ, *place) → (merit, violation) of the stage, and slack.
+        """Return (*point, trial slack, μ, *place) → (merit, violation, lack) of the stage, and slack.
 
         A cost of one's own, which is part of the merit, stands behind them by itself.
 
         A point is (state, command, shared parameter, numbers, vehicle), and there is a place, where the pivot is to be,
         only with a path. The slack of an exact inequality is g, that of another the larger of g and the trial slack:
-        what lies above g is the violation.
+        what lies above g is the violation. What g itself lacks to 0, whatever its slack, is the lack.
         """
         k, g = self._exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
         wished = ca.sumsqr(self._own) / 2
         merit = self._cost + wished + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
-        summary = ca.vertcat(merit, ca.sum1(slack[k:] - g[k:]) if k < g.numel() else 0)
+        lack = (ca.sum1(slack[k:] - g[k:]), ca.sum1(ca.fmax(0, -g[k:]))) if k < g.numel() else (0, 0)
+        summary = ca.vertcat(merit, *lack)
         summary = ca.vertcat(summary, wished) if self._own.numel() else summary
         return self._function("values", [*self._point, self._slack, self._mu, *self._place], summary, slack)
 

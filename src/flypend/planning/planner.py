@@ -122,9 +122,13 @@ def horizon_of(asked: Request, duration: float | None) -> float | None:
 def plan_within(asked: Request, horizon: float, iterations: int, rounds: Mapping[int, int]) -> Plan:
     """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock.
 
-    `rounds` as in `search.Race`.
+    `rounds` as in `search.Race`. With constraints there are two races, the first of which does not know of them.
     """
-    return plans_of([asked], [together(asked, horizon, math.inf, iterations, rounds)], horizon)[0]
+    found = [together(asked, horizon, math.inf, iterations, rounds)]
+    if asked.kept.loose:
+        found.append(together(asked.unconstrained(), horizon, math.inf, iterations, rounds, kept=asked))
+    plans = plans_of([asked] * len(found), found, horizon)
+    return min(zip(plans, found, strict=True), key=lambda each: (not each[0], each[1].cost))[0]
 
 
 @errors.named_arguments

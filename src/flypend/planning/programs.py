@@ -54,7 +54,7 @@ def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
         inequalities=barrier.inequalities,
         exact=structure.exact(rotors),
         end_size=barrier.end_size,
-        summary=2 + (structure.cost != ""),
+        summary=3 + (structure.cost != ""),
         linearised=each(stage.linearised(gap, layout.slopes(A, B)), shared=(3, 4)),
         values=each(barrier.values(), shared=(2, 3, 4, 6)),
         terms=each(barrier.terms(layout), shared=(2, 3, 4, 7)),

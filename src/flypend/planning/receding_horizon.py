@@ -312,6 +312,7 @@ class Pilot(Boards):
         each = MEASURED_AT_FIRST if self._common.computing is None else self._common.computing
         each *= OF_GUESS * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
         first, given = (each * work(*much) for much in (SKETCH, (ROUNDS, WIDTH, iterations)))
+        given *= 1 + self._common.kept(state[:3], self._where(t)[:3]).loose
         if given > horizon * self._units.time:
             return Coming(None, None, "a plan would take longer than its flight", t, t, None, self._error.scales)
         first *= not self._failures and given <= LONGEST * self._units.time

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -52,16 +52,21 @@ class Race:
         As in `Solver`.
     rounds : dict
         See `ROUNDS`.
+    kept : Request, optional
+        What the lanes are to keep although their solvers do not know of it.
     """
 
     def __init__(
-        self, compiled: Programs, problem: Problem, states: Array, commands: Array, rounds: Mapping[int, int] = ROUNDS
-    ) -> None:
+        self, compiled: Programs, problem: Problem, states: Array, commands: Array,
+        rounds: Mapping[int, int] = ROUNDS, kept: Request | None = None,
+    ) -> None:  # fmt: skip
         scratch, arrays = Scratch(compiled, problem.stages, 1), (*problem.arrays, states, commands)
-        self._solvers = []
+        self._solvers, self._lacks = [], []
         for i in range(states.shape[-1]):
             *own, begin, steered = (one_lane(values[..., i]) for values in arrays)
-            self._solvers.append(Solver(compiled, Problem(problem.stages, *own), begin, steered, scratch=scratch))
+            alone = Problem(problem.stages, *own)
+            self._solvers.append(Solver(compiled, alone, begin, steered, scratch=scratch))
+            self._lacks += [_lack(kept, alone, begin, steered)] if kept else []
         self._running = list(range(len(self._solvers)))
         self._iterations, self._rounds = 0, rounds
 
@@ -88,7 +93,26 @@ class Race:
     def measures(self) -> Measures:
         """See `Solver`."""
         some = [solver.measures if i in self._running else LOST for i, solver in enumerate(self._solvers)]
+        for i in self._running if self._lacks else ():
+            some[i] = some[i]._replace(lack=self._lacks[i]())
         return Measures(*(np.concatenate(parts) for parts in zip(*some, strict=True)))
+
+
+def _lack(kept: Request, problem: Problem, states: Array, commands: Array) -> Callable[[], Array]:
+    """Return what tells how much `states` and `commands` on one lane, whatever they are by then, lack of `kept`."""
+    k, N, one = _alone(kept), problem.stages, np.ones(1)
+    numbers, places = one_lane(kept.numbers), () if problem.places is None else (problem.places,)
+    summary, slack = lanes(N, k.summary, width=1), one_lane(np.ones((N, k.inequalities)))
+    values = k.values.on(
+        states, commands, one_lane(one), numbers, problem.vehicle, slack, one_lane(one), *places, summary, slack.copy()
+    )  # fmt: skip
+
+    def lack() -> Array:
+        values(0, N)
+        found: Array = summary[:, 2].sum(axis=0)  # see `Barrier.values`
+        return found
+
+    return lack
 
 
 def work(rounds: Mapping[int, int], guesses: int, iterations: int) -> int:
@@ -140,13 +164,13 @@ class Verdict:
     """
 
     def __init__(self, measures: Measures, soft: bool) -> None:
-        cost, violation = (measures.cost if soft else measures.value), measures.violation
+        cost, lack = (measures.cost if soft else measures.value), measures.lack
         self.arrives, self.stuck = (measures.end <= 1) & (measures.gap <= CLOSED), measures.stuck
         self.barrier = measures.barrier
         with np.errstate(all="ignore"):
             self.stationarity = np.nan_to_num(measures.change / measures.value, nan=UNKNOWN, posinf=UNKNOWN)
-        self.cost = np.where(self.arrives & (violation <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
-        lacks = np.maximum(measures.end, 1) + violation / TOLERANCE + measures.gap / CLOSED
+        self.cost = np.where(self.arrives & (lack <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
+        lacks = np.maximum(measures.end, 1) + lack / TOLERANCE + measures.gap / CLOSED
         self.lacks = np.where(np.isfinite(lacks), lacks, np.inf)
 
     def of(self, on: Any) -> tuple[float, int, str]:
@@ -225,7 +249,7 @@ def stages_of(horizon: float) -> tuple[int, float]:
 
 def prepare(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
-    programs(asked.rotors, asked.structure, lanes=False), pumping(asked.rotors)
+    _alone(asked), pumping(asked.rotors)
 
 
 def together(
@@ -235,16 +259,18 @@ def together(
     most: int = MOST_ITERATIONS,
     rounds: Mapping[int, int] | None = None,
     first: float = SOFT_FIRST,
+    kept: Request | None = None,
 ) -> Found:
     """Solve from all styles of guesses, until the best is steady or the `deadline` is over.
 
     It is of the processor time of this thread, s. There are at `most` so many iterations. `rounds` are as in `Race`; by
     default no guess is given up where costs are soft at first, since the dearest may be the one that keeps away.
-    `first` is the `soft` of `Watch`.
+    `first` is the `soft` of `Watch`, and `kept` as in `Race`.
     """
     jobs = [Job(asked, style) for style in range(WIDTH)]
     given_up = ({} if asked.structure.soft else ROUNDS) if rounds is None else rounds
-    return _raced(jobs, make_guesses(jobs, horizon), given_up, Watch(jobs, range(WIDTH), most, first), deadline)
+    race = Race(_alone(asked), *make_guesses(jobs, horizon), given_up, kept)
+    return _raced(race, Watch(jobs, range(WIDTH), most, first), asked.structure.soft, deadline)
 
 
 def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Watch | None = None) -> Found:
@@ -256,23 +282,23 @@ def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Wat
     stages = len(commands)
     timing, vehicle, numbers = (part[:, None] for part in _problem(job.asked, horizon / stages))
     problem = Problem(stages, timing, vehicle, numbers, _places([job], stages, horizon / stages))
-    given = problem, states[..., None], commands[..., None]
-    return _raced([job], given, {}, watch or Watch([job], [0], soft=SOFT_LAST), deadline)
+    race = Race(_alone(job.asked), problem, states[..., None], commands[..., None], {})
+    return _raced(race, watch or Watch([job], [0], soft=SOFT_LAST), job.asked.structure.soft, deadline)
 
 
-def _raced(
-    jobs: Sequence[Job], given: tuple[Problem, Array, Array], rounds: Mapping[int, int], watch: Watch, deadline: float
-) -> Found:
-    """Return what a race from the `given` guesses finds until its `watch` is done, or the `deadline` is over."""
-    asked, soft = jobs[0].asked, jobs[0].asked.structure.soft
-    solver = Race(programs(asked.rotors, asked.structure, lanes=False), *given, rounds)
+def _alone(asked: Request) -> Programs:
+    return programs(asked.rotors, asked.structure, lanes=False)
+
+
+def _raced(race: Race, watch: Watch, soft: bool, deadline: float) -> Found:
+    """Return what a `race` finds until its `watch` is done, or the `deadline` is over."""
     while not watch.done and time.thread_time() < deadline:
         signals.poll()
         begin = time.thread_time()
-        watch.before(solver)
-        solver.improve()
-        watch.after(solver, Verdict(solver.measures, soft), time.thread_time() - begin)
-    return watch.found(solver)
+        watch.before(race)
+        race.improve()
+        watch.after(race, Verdict(race.measures, soft), time.thread_time() - begin)
+    return watch.found(race)
 
 
 def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:

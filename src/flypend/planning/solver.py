@@ -99,14 +99,14 @@ class Measures(NamedTuple):
     """What the lanes of a solver have come to, (lanes,) each.
 
     `cost` is the merit with the weight of e as it was asked for, `value` excursion and effort with their weights,
-    `violation` what inequalities lack, `gap` the sum of all gaps, `end` the largest error there in tolerances, and
+    `lack` what inequalities lack, `gap` the sum of all gaps, `end` the largest error there in tolerances, and
     `barrier` is μ. Lanes that are `stuck` cannot be improved any more, whatever the damping. `change` is that of
     the cost in the linear-quadratic problem of the last step: 0 where the conditions of first order hold.
     """
 
     cost: Lanes
     value: Lanes
-    violation: Lanes
+    lack: Lanes
     gap: Lanes
     end: Lanes
     barrier: Lanes
@@ -136,7 +136,7 @@ class Solver:
     ----------
     states, commands
         The best so far.
-    merit, violation, gap, end : (lanes,)
+    merit, lack, gap, end : (lanes,)
         Merit, sum of what inequalities lack, sum of all gaps, and largest error at the end in tolerances.
     change : (lanes,)
         See `Measures`.
@@ -159,7 +159,7 @@ class Solver:
         self._slack, self._dual, self._hover = lanes(N, k), lanes(N, k), lanes(1, states.shape[1])
         self._epsilon, self._new_shared, self._errors = lanes(1), lanes(1), lanes(programs.end_size)
         self._price, self._w = np.ones((2, width)), scratch or Scratch(programs, N, width)
-        self.merit, self.violation, self.gap, self.end = (np.full(width, np.inf) for _ in range(4))
+        self.merit, self.lack, self.gap, self.end = (np.full(width, np.inf) for _ in range(4))
         self._wished, self.change = np.zeros(width), np.full(width, np.inf)  # the cost of one's own
         self._connect()
         self._begin(slice(None))
@@ -214,7 +214,7 @@ class Solver:
         self._shared[0, on] = 0.0
         self._fit(whole, on)
         self._slack[..., on], self._price[:, on] = 0.1, 1.0
-        for measured in (self.merit, self.violation, self.gap, self.end):
+        for measured in (self.merit, self.lack, self.gap, self.end):
             measured[on] = np.inf
         # In the other lanes slacks are what they were.
         with np.errstate(all="ignore"):
@@ -241,7 +241,7 @@ class Solver:
             asked * excursion**2 + numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2 + self._wished
         )
         stuck = self._damping[1] >= self._set.most_damping
-        return Measures(cost, value, self.violation, self.gap, self.end, self._mu[0], stuck, self.change)
+        return Measures(cost, value, self.lack, self.gap, self.end, self._mu[0], stuck, self.change)
 
     def insist(self, place: int, weight: float, on: Any) -> None:
         """Set the number at `place` of the inequalities, a `weight`, in the lanes `on`."""
@@ -298,7 +298,7 @@ class Solver:
         self._price[0] = w.costate[stages].max(axis=(0, 1))
         self._price[1] = dual[:, self._k.exact :].max(axis=(0, 1), initial=0.0)
         self._price = np.maximum(1.0, 1.2 * self._price)
-        self.merit, self.violation, self.end, self._wished = self._value(stages, new=False, gap=self.gap)
+        self.merit, self.lack, self.end, self._wished = self._value(stages, new=False, gap=self.gap)
 
     def _search(self, stages: slice) -> tuple[Lanes, Lanes]:
         """Shorten the step until the merit falls, lane by lane, and take it. Returns as `step`."""
@@ -312,7 +312,7 @@ class Solver:
             length = np.where(found, length, factor * length)
             self._fly(stages, length)
             gap = (1 - length) * self.gap
-            merit, violation, end, wished = self._value(stages, new=True, gap=gap)
+            merit, lack, end, wished = self._value(stages, new=True, gap=gap)
             found |= merit < self.merit
             if found.all():
                 break
@@ -320,7 +320,7 @@ class Solver:
             (self.states[after], w.new_states[after]), (self.commands[stages], w.new_commands[stages]),
             (self._shared, self._new_shared), (self._slack[stages], w.new_slack[stages]),
             (self._dual[stages], self._dual[stages] + dual_length * w.z_step[stages]),
-            (self.merit, merit), (self.violation, violation), (self.gap, gap), (self.end, end), (self._wished, wished),
+            (self.merit, merit), (self.lack, lack), (self.gap, gap), (self.end, end), (self._wished, wished),
         )  # fmt: skip
         for old, new in pairs:
             np.copyto(old, new, where=found)
@@ -338,18 +338,18 @@ class Solver:
         w.trial[stages, exact:] = slack[:, exact:] + length * w.s_step[stages, exact:]
 
     def _value(self, stages: slice, *, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes, Lanes]:
-        """Return merit, violation, largest error at the end and cost of one's own, (lanes,) each, and write the slacks.
+        """Return merit, lack, largest error at the end and cost of one's own, (lanes,) each, and write the slacks.
 
         They are those of the `new` states and commands, or of the old ones.
         """
         p, shared = self._problem, self._new_shared if new else self._shared
         self._values[new](stages.start, stages.stop - stages.start)
         self._ends[new](stages.stop, 1)
-        own, violation, *wished = self._w.summary[stages].sum(axis=0)
+        own, violation, lack, *wished = self._w.summary[stages].sum(axis=0)
         missed = ((self._errors + self._offset) ** 2).sum(axis=0)
         merit = p.numbers[SHARED] * shared[0] + own + self._weight[0] * missed / 2
         merit += self._price[0] * gap + self._price[1] * violation
-        return merit, violation, np.abs(self._errors).max(axis=0), wished[0] if wished else np.zeros_like(own)
+        return merit, lack, np.abs(self._errors).max(axis=0), wished[0] if wished else np.zeros_like(own)
 
     def _adapt(self, length: Lanes) -> None:
         """Adapt damping, barrier and weight of the end to the `length` of the step."""

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.cli.options import plant_asked
 from flypend.files.toml import toml_text
+from flypend.settings.runfile import plant_of
 
 QUICK = ("--runs", "16", "--no-margins", "--no-figures")
 
@@ -137,3 +139,17 @@ def test_run_warns_of_a_vehicle_that_is_too_slow_and_flies_it(call, tmp_path):
     run["plant"] = "rotors"
     (tmp_path / "late.toml").write_text(toml_text(run), encoding="utf-8")
     assert "warning" not in call("run", "late.toml", "--no-figures")[2]
+
+
+def test_sensors_are_read_from_a_file(tmp_path):
+    path = tmp_path / "sensors.toml"
+    path.write_text('base = "mocap"\ngyro_bias = 0.02\nrod = { rate = 100.0 }\n', encoding="utf-8")
+    found = plant_of(plant_asked("rotors", str(path))).sensors
+    mocap = fp.Plant(sensors="mocap").sensors
+    assert (found.gyro_bias, found.rod.rate, found.rod.noise) == (0.02, 100.0, mocap.rod.noise)
+    assert found.told.position == mocap.position
+    path.write_text('base = "perfect"\n', encoding="utf-8")
+    assert plant_asked("rotors", str(path)) == "rotors"
+    path.write_text('base = "mocap"\ngyro_bias = -1\n', encoding="utf-8")
+    with pytest.raises(fp.InputError, match="gyro_bias"):
+        plant_asked("rotors", str(path))

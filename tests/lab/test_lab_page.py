@@ -400,12 +400,12 @@ def test_a_defect_of_the_sensors_is_turned_up_until_the_vehicle_falls(visit, axe
     page.locator("select[data-path='plant.sensors']").select_option("mocap")
     shown(page)
     able(page)
-    bias, told = slider(page, "plant.defects.gyro_bias"), page.locator(".fell")
-    assert bias.get_attribute("aria-valuetext") == "0 rad/s"
+    bias, told = slider(page, "plant.defects.accelerometer_bias"), page.locator(".fell")
+    assert bias.get_attribute("aria-valuetext") == "0 m/s²"
     bias.focus()
     page.keyboard.press("ArrowRight")
     until(page, "() => flypend.timings().at(-1).here")
-    assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap", "defects": {"gyro_bias": 0.0025}}
+    assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap", "defects": {"accelerometer_bias": 0.025}}
     expect_flight(page)  # by the page
     shown(page)
     expect_flight(page)  # by the server
@@ -416,7 +416,9 @@ def test_a_defect_of_the_sensors_is_turned_up_until_the_vehicle_falls(visit, axe
     until(page, "() => flypend.verdict().words === 'live: upright'")
     bias.fill("400")
     until(page, "() => document.querySelector('.fell').textContent.startsWith('Fell after')")
-    assert re.fullmatch(r"Fell after \d+\.\d s at gyro bias 1 rad/s, cameras' frame turned 1 °\.", told.text_content())
+    assert re.fullmatch(
+        r"Fell after \d+\.\d s at accelerometer bias 10 m/s², cameras' frame turned 1 °\.", told.text_content()
+    )
     assert [one for one in axe(page) if one[0] != "color-contrast"] == []
     page.locator(".has-defects .reset").click()
     assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap"}
@@ -424,7 +426,7 @@ def test_a_defect_of_the_sensors_is_turned_up_until_the_vehicle_falls(visit, axe
     page.locator(".go").click()
     shown(page)
     bias.fill("400")
-    until(page, "() => document.querySelector('.fell').textContent === 'Fails at gyro bias 1 rad/s.'")
+    until(page, "() => document.querySelector('.fell').textContent === 'Fails at accelerometer bias 10 m/s².'")
     page.locator("select[data-path='plant.sensors']").select_option("perfect")
     shown(page)
     assert setting(page)["plant"] == {"base": "rotors"}

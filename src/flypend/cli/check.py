@@ -18,7 +18,9 @@ class Flights:
 
     plant: str = option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
     sensors: str = option(
-        "--sensors", default="perfect", help="Sensor suite; also flies all errors of a laboratory at once."
+        "--sensors",
+        default="perfect",
+        help="Sensor suite, or a TOML file of one; also flies all errors of a laboratory at once.",
     )
     floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
     runs: int | None = option(
@@ -65,7 +67,7 @@ def check(
     machine = model.vehicle(vehicle)
     errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
     asked = plant_asked(own.plant, own.sensors, own.floor)
-    measured = own.sensors != "perfect"
+    measured = isinstance(asked, dict) and "sensors" in asked
     if measured and margins is None:
         margins = False  # what fails first, and at which size, is told of all errors together
     world, seed = plant_of(asked), own.seed

@@ -18,7 +18,7 @@ LAW_HELP = "a name that flypend laws lists, file.py:function or module:function"
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
-SENSORS_HELP = "perfect; or mocap, onboard or laboratory, with the estimator (not on the plant ideal)."
+SENSORS_HELP = "perfect; or mocap, onboard, laboratory or a TOML file, with the estimator (not on the plant ideal)."
 sensors_option = click.option("--sensors", default="perfect", help=SENSORS_HELP)
 BANDS_HELP = "Fly vehicles drawn from the bands of the vehicle; the law believes what is written."
 bands_option = click.option("--bands", is_flag=True, help=BANDS_HELP)
@@ -76,17 +76,34 @@ def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
     return dict(worlds_within(machine, as_sampled(plant_of(plant)), seed))
 
 
+def sensors_asked(sensors: str) -> Any:
+    """Return the sensors of --sensors, as a run file has them: the name of a suite, or the table in a TOML file.
+
+    Raises InputError.
+    """
+    from flypend import errors
+    from flypend.files.toml import read_toml
+    from flypend.plants import SUITES
+    from flypend.plants.sensors import sensors_called
+
+    if Path(sensors).suffix != ".toml":
+        return errors.one_of("--sensors", sensors, SUITES)
+    table = read_toml(sensors)
+    return "perfect" if sensors_called(table, "--sensors") is None else table
+
+
 def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:
     """Return the plant of --plant, --sensors and --floor, as a run file has it: a name, or a table.
 
     Raises InputError.
     """
     from flypend import errors
-    from flypend.plants import PRESETS, SUITES
+    from flypend.plants import PRESETS
 
     errors.one_of("--plant", plant, PRESETS)
-    perfect = errors.one_of("--sensors", sensors, SUITES) == "perfect"
+    measured = sensors_asked(sensors)
+    perfect = measured == "perfect"
     if plant == "ideal" and not perfect:
         raise errors.InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
-    given = ({} if perfect else {"sensors": sensors}) | ({} if floor is None else {"floor": floor})
+    given = ({} if perfect else {"sensors": measured}) | ({} if floor is None else {"floor": floor})
     return {"base": plant, **given} if given else plant

@@ -19,29 +19,29 @@ FACTOR = 4.0  # a gain's slider spans its default divided and multiplied by this
 
 
 _DEGREE, _PERCENT, _MILLI = np.pi / 180, 0.01, 1e-3
-# Of each defect: words, the unit shown and its size in SI, and where its slider ends, in that unit: near twice the size
-# from which on fewer than half of hehn2011's random starts succeed on the suite "mocap" or "onboard", or at its limit.
+# Of each defect: words, the unit shown and its size in SI, and where its slider ends, in that unit: hehn2011 on the
+# suite "mocap" falls there from hover or does not swing up from most starts, unless sensors take no more.
 DEFECTS: Mapping[str, tuple[str, str, float, float]] = {
-    "gyro_bias": ("gyro bias", "rad/s", 1.0, 1.0),
+    "gyro_bias": ("gyro bias", "rad/s", 1.0, 5.0),
     "gyro_bias_walk": ("gyro bias, walk", "rad/s/√s", 1.0, 1.0),
-    "gyro_scale": ("gyro scale", "%", _PERCENT, 50.0),
+    "gyro_scale": ("gyro scale", "%", _PERCENT, 40.0),
     "gyro_vibration": ("gyro vibration", "rad/s", 1.0, 10.0),
     "accelerometer_bias": ("accelerometer bias", "m/s²", 1.0, 10.0),
-    "accelerometer_bias_walk": ("accelerometer bias, walk", "m/s²/√s", 1.0, 10.0),
+    "accelerometer_bias_walk": ("accelerometer bias, walk", "m/s²/√s", 1.0, 5.0),
     "accelerometer_scale": ("accelerometer scale", "%", _PERCENT, 50.0),
     "vibration": ("accelerometer vibration", "m/s²", 1.0, 100.0),
     "imu_turned": ("IMU misaligned", "°", _DEGREE, 20.0),
-    "markers_off": ("markers off the pivot", "mm", _MILLI, 200.0),
+    "markers_off": ("markers off the pivot", "mm", _MILLI, 500.0),
     "markers_turned": ("markers misaligned", "°", _DEGREE, 20.0),
-    "rod_markers_off": ("rod markers off", "°", _DEGREE, 20.0),
-    "joints_off": ("joint zeros off", "°", _DEGREE, 20.0),
-    "frame_off": ("cameras' origin off", "m", 1.0, 1.0),
+    "rod_markers_off": ("rod markers off", "°", _DEGREE, 15.0),
+    "joints_off": ("joint zeros off", "°", _DEGREE, 15.0),
+    "frame_off": ("cameras' origin off", "m", 1.0, 0.5),
     "frame_turned": ("cameras' frame turned", "°", _DEGREE, 20.0),
     "frame_scale": ("cameras' scale", "%", _PERCENT, 50.0),
-    "outliers": ("poses of another body", "%", _PERCENT, 50.0),
-    "bursts": ("bursts of loss", "1/s", 1.0, 5.0),
-    "untold_latency": ("poses older than told", "ms", _MILLI, 50.0),
-    "latency_jitter": ("jitter of poses", "ms", _MILLI, 30.0),
+    "outliers": ("poses of another body", "%", _PERCENT, 95.0),
+    "bursts": ("bursts of loss", "1/s", 1.0, 10.0),
+    "untold_latency": ("poses older than told", "ms", _MILLI, 40.0),
+    "latency_jitter": ("jitter of poses", "ms", _MILLI, 20.0),
 }
 
 

@@ -14,7 +14,7 @@ from flypend.errors import InputError
 # Those that only say how large, how long or how fast another is.
 MEASURES = ("vibration_rate", "outlier_off", "outlier_turned", "burst_time")
 # Longest delay of poses, s, for which there is room if it may change: the smallest of these that is enough.
-ROOMS = (0.02, 0.04, 0.08, 0.16, 0.4)
+ROOMS = (0.02, 0.06, 0.16, 0.4)
 # Streams that cameras send, all of a frame together.
 POSES = ("position", "attitude", "rod")
 # The size of a defect where only that there is one matters.

@@ -31,7 +31,7 @@ KNOBS = {
 }  # fmt: skip
 STRETCHES = 2  # intervals of a tick: under the command before, and under the one that arrives
 LONGEST_DELAY = 0.1  # s
-LONGEST_SHIFT = 0.08  # s, by which poses may be older than told
+LONGEST_SHIFT = 0.06  # s, by which poses may be older than told
 LEAST_LAG = 1e-6  # s; a shorter one is none
 
 

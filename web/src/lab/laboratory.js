@@ -292,7 +292,8 @@ export class Laboratory {
     if (reply.number === this.asked) {
       this.#say("");
       this.adopt(reply.start);
-      this.panel.flight(reply);
+      // A live flight's sliders may have moved on since it was asked for.
+      this.panel.flight(this.running.on ? { ...reply, sliders: this.link.sliders(this.setting.value) } : reply);
       this.panel.fell(reply.verdict.good ? "" : "Fails");
       this.#barred();
       if (this.viewer.stage && reply.verdict.part && this.viewer.flights[0].end < AT_ONCE) this.#notice(`${capital(reply.verdict.reason)} at the start. Shaded directions are taken.`, ["Move to a free start", () => this.free()]);

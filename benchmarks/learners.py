@@ -1,6 +1,6 @@
-"""PPO and SAC of Stable-Baselines3 on the tasks of the environments, as `benchmarks.scores` trains them.
+"""PPO and SAC of Stable-Baselines3, and the gradient of `examples/gradient.py`, as `benchmarks.scores` trains them.
 
-The settings are those of the library but for what stands here. They are one set for all tasks. For the swing-up they
+The settings of PPO and SAC are those of the library but for what stands here. They are one set for all tasks. For the swing-up they
 learn on the shaped task, and are scored on the other.
 """
 
@@ -38,8 +38,12 @@ def trained(
     """Train by the algorithm `name` until the `score` of its policy is `wanted`, or for `seconds` of processor time.
 
     Return the policy, (worlds, observations) → actions, its steps, and the processor time with that of the scores.
+    The gradient stops by itself.
     """
     import torch
+
+    if name == "gradient":
+        return by_gradient(task, seed)
     from stable_baselines3 import PPO, SAC
     from stable_baselines3.common.vec_env import VecNormalize
 
@@ -61,3 +65,20 @@ def trained(
         print(f"{name} {task} seed {seed}: {model.num_timesteps} steps, {spent:.0f} s, {now:.1f}", file=sys.stderr)
         if now >= wanted or spent > seconds:
             return policy, model.num_timesteps, spent
+
+
+def by_gradient(task: str, seed: int) -> tuple[Any, int, float]:
+    """Train the network of the example, and return as `trained`; it flies at the rate of the task."""
+    import torch
+
+    from flypend.examples import gradient
+
+    torch.set_num_threads(1)
+    begin = time.process_time()
+    network, steps = gradient.train(task, seed)
+
+    @torch.no_grad()
+    def policy(worlds: Any, seen: Any) -> Any:
+        return network(torch.from_numpy(seen[:, :24])).numpy()
+
+    return policy, steps, time.process_time() - begin

@@ -2,8 +2,8 @@
 
 A row per policy: random actions; the linear-quadratic regulator, the inverted law and the learned one, as flight
 computers whose commands are the actions; a plan that is tracked; PPO and SAC of Stable-Baselines3, which are trained
-first (`benchmarks.learners`), until they score `--wanted` of the inverted law, once for each `--seed`. Only those that
-need no training fly by default. A score is the sum of the rewards of an episode; a rod is up at the end if the world is
+first (`benchmarks.learners`), until they score `--wanted` of the inverted law, once for each `--seed`; and a network
+that `examples/gradient.py` trains. Only those that need no training fly by default. A score is the sum of the rewards of an episode; a rod is up at the end if the world is
 cut off with the rod within 15° of upright. All fly from the same starts, which no training has seen.
 """
 
@@ -127,6 +127,7 @@ def acted(forces: Any, vehicle: fp.Vehicle) -> Any:
 
 
 LAWS = ("lqr", "inverted", "learned")
+TRAINED = (*SETTINGS, "gradient")
 
 
 def policy_of(name: str) -> Policy:
@@ -149,7 +150,7 @@ def main() -> None:
     """Fly, train, and print the table."""
     parser = argparse.ArgumentParser()
     parser.add_argument("task", choices=TASKS)
-    parser.add_argument("--policy", action="append", choices=("random", *LAWS, "plan", *SETTINGS))
+    parser.add_argument("--policy", action="append", choices=("random", *LAWS, "plan", *TRAINED))
     parser.add_argument("--seed", type=int, action="append", help="of training")
     parser.add_argument("--wanted", type=float, default=0.9, help="share of the law's score at which training stops")
     parser.add_argument("--minutes", type=float, default=10.0, help="most processor time of a training")
@@ -161,7 +162,7 @@ def main() -> None:
     for name in names:
         if name == "inverted":
             print(told(name, law, law), flush=True)
-        elif name not in SETTINGS:
+        elif name not in TRAINED:
             runs = PLANS if name == "plan" else RUNS
             print(told(name, scored(asked.task, policy_of(name), runs, SEED), law), flush=True)
         else:

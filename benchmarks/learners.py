@@ -1,7 +1,7 @@
 """PPO and SAC of Stable-Baselines3, and the gradient of `examples/gradient.py`, as `benchmarks.scores` trains them.
 
-The settings of PPO and SAC are those of the library but for what stands here. They are one set for all tasks. For the swing-up they
-learn on the shaped task, and are scored on the other.
+The settings of PPO and SAC are those of the library but for what stands here. They are one set for all tasks. For the
+swing-up they learn on the shaped task, and are scored on the other.
 """
 
 from __future__ import annotations

@@ -2,9 +2,10 @@
 
 A row per policy: random actions; the linear-quadratic regulator, the inverted law and the learned one, as flight
 computers whose commands are the actions; a plan that is tracked; PPO and SAC of Stable-Baselines3, which are trained
-first (`benchmarks.learners`), until they score `--wanted` of the inverted law, once for each `--seed`; and a network
-that `examples/gradient.py` trains. Only those that need no training fly by default. A score is the sum of the rewards of an episode; a rod is up at the end if the world is
-cut off with the rod within 15° of upright. All fly from the same starts, which no training has seen.
+first (`benchmarks.learners`), until they score `--wanted` of the inverted law, once for each `--seed`; a network that
+`examples/gradient.py` trains. Only those that need no training fly by default. A score is the sum of the rewards of an
+episode; a rod is up at the end if the world is cut off with the rod within 15° of upright. All fly from the same
+starts, which no training has seen.
 """
 
 from __future__ import annotations

@@ -230,6 +230,7 @@ def _imports(text):
 BROUGHT = {"dask", "pandas"}
 # What an example shows beside flypend.
 THEIRS = {
+    "examples/gradient.py": "torch",
     "examples/train.py": "stable_baselines3",
     "envs/sb3.py": "stable_baselines3",
     "export/templates/crazyflie/flypend_host.py": "cflib",

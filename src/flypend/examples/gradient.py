@@ -6,6 +6,7 @@ on flights of the inverted law (a reverse curriculum): these say where to begin,
 
 from __future__ import annotations
 
+import argparse
 import sys
 import time
 from typing import Any
@@ -142,7 +143,8 @@ def flown(policy: Policy, worlds: DifferentiableWorlds, memory: Any, observed: A
     seen = []
     for _ in range(steps):
         memory, observed, _, _ = worlds.torch(memory, policy(observed))
-        memory.register_hook(limited)
+        if memory.requires_grad:
+            memory.register_hook(limited)
         seen.append(observed)
     return torch.stack(seen)
 
@@ -177,7 +179,8 @@ def train(task: str = "swing_up", seed: int = 0, settled: int | None = None, mos
         total += FLIGHTS * steps
         near = float((far[-1] < NEAR).float().mean())
         if update % 20 == 0:
-            print(f"update {update}: from {back:.1f} s before, {near:.0%} end near hover", flush=True)
+            begun_at = f", begun up to {back:.1f} s before the rod is up" if paths else ""
+            print(f"update {update}: {near:.0%} of flights end near hover{begun_at}", file=sys.stderr, flush=True)
         if update >= BALANCE:
             left -= back == FARTHEST
             back = min(FARTHEST, back + 0.04 * (near > 0.8))
@@ -199,7 +202,9 @@ def share_up(policy: Policy, task: str, count: int = 1000, seed: int = 2 * 10**6
 
 
 if __name__ == "__main__":
-    task = sys.argv[1] if len(sys.argv) > 1 else "swing_up"
+    parser = argparse.ArgumentParser()
+    parser.add_argument("task", nargs="?", default="swing_up", choices=("balance", "swing_up"))
+    task = parser.parse_args().task
     torch.set_num_threads(1)
     policy, _ = train(task)
     share = share_up(policy, task)

@@ -47,7 +47,7 @@ from flypend.pages.sliders import DEFECTS, sliders_of
 from flypend.pages.starts import directions
 from flypend.paper import experiment
 from flypend.plants import SUITES
-from flypend.plants.defects import NAMES
+from flypend.plants.defects import NAMES, room
 from flypend.settings.runfile import run_file
 
 OFFER = offer()
@@ -500,7 +500,14 @@ def test_every_defect_has_a_slider_that_compiles_nothing(sensors):
         defects = {name: facts["high"] * facts["put"]["#"]}
         turned = setting_of(asked(plant={"base": "rotors", "sensors": sensors, "defects": defects})).flight.plant
         assert getattr(turned.sensors, name) == pytest.approx(defects[name])
-        assert (structure(turned) == before) == (name not in ("untold_latency", "latency_jitter"))
+        assert (structure(turned) == before) == (room(turned.sensors) == room(suite))
+        assert room(turned.sensors) == (0.06 if late(turned.sensors) > 0.02 else 0.02)
+        assert late(turned.sensors) <= 0.02 or name in ("untold_latency", "latency_jitter")
+
+
+def late(sensors):
+    """By how much (s) poses may be older than told."""
+    return sensors.untold_latency + sensors.latency_jitter
 
 
 def _filled(put, value):

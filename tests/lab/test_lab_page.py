@@ -419,6 +419,8 @@ def test_a_defect_of_the_sensors_is_turned_up_until_the_vehicle_falls(visit, axe
     assert re.fullmatch(
         r"Fell after \d+\.\d s at accelerometer bias 10 m/s², cameras' frame turned 1 °\.", told.text_content()
     )
+    shown(page)  # what the server confirms late changes neither line nor slider
+    assert (told.text_content().startswith("Fell after"), bias.input_value()) == (True, "400")
     assert [one for one in axe(page) if one[0] != "color-contrast"] == []
     page.locator(".has-defects .reset").click()
     assert setting(page)["plant"] == {"base": "rotors", "sensors": "mocap"}

@@ -294,7 +294,7 @@ export class Laboratory {
       this.adopt(reply.start);
       // A live flight's sliders may have moved on since it was asked for.
       this.panel.flight(this.running.on ? { ...reply, sliders: this.link.sliders(this.setting.value) } : reply);
-      this.panel.fell(reply.verdict.good ? "" : "Fails");
+      if (!this.running.on) this.panel.fell(reply.verdict.good ? "" : "Fails");
       this.#barred();
       if (this.viewer.stage && reply.verdict.part && this.viewer.flights[0].end < AT_ONCE) this.#notice(`${capital(reply.verdict.reason)} at the start. Shaded directions are taken.`, ["Move to a free start", () => this.free()]);
       this.story?.flown(this.setting.value, reply.sliders);

@@ -20,7 +20,7 @@ def test_every_command_of_the_pages_is_typed():
         code = re.findall(r"^    .*$|`[^`]*`", text, flags=re.MULTILINE)
         named = sum(len(re.findall(rf"\bflypend (?:{'|'.join(app.commands)})\b", line)) for line in code)
         assert sum(not step.is_python for step in steps_of(text)) == named
-    assert sum(line.startswith("python examples/") for line in TYPED) == 3
+    assert sum(line.startswith("python examples/") for line in TYPED) == 4
     assert len(TYPED) > 35
 
 

@@ -69,7 +69,8 @@ class Lanes:
         """`value` in every lane."""
         if self.precision == "float":
             (value,) = struct.unpack("f", struct.pack("f", value))
-        return f"splat ({self.precision} {hexadecimal(value)})"
+        # Lane by lane: LLVM before 19, which sanitisers may bring, knows no splat.
+        return f"<{', '.join([f'{self.precision} {hexadecimal(value)}'] * self.width)}>"
 
     def function(self, name: str, pointers: int) -> Code:
         """Begin a function with this many `pointers` as arguments."""

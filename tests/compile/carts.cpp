@@ -33,7 +33,7 @@ void sense_begin(const V *state, const V *, V *memory) { memory[0] = 0 * state[0
 void sense_estimate(const V *state, const V *draws, V *estimate) {
     for (int i = 0; i < 4; i++) estimate[i] = state[i] + draws[i];
 }
-void sense(const V *memory, const V *, const V *state, const V *draws, V *next, V *readings) {
+void sense(const V *memory, const V *, const V *state, const V *draws, const V *, V *next, V *readings) {
     measure(state, draws, nullptr, readings);
     next[0] = memory[0] + 1;
 }

@@ -84,9 +84,10 @@ def test_the_site_needs_no_network(site):
 
 
 def test_tutorials_were_run_and_can_be_taken_along(site):
-    tutorials = sorted((ROOT / "docs" / "tutorials").glob("*-*.md"))
+    tutorials = {path.stem: path for path in (ROOT / "docs" / "tutorials").glob("*-*.md")}
+    del tutorials["learn-by-gradient"]  # needs PyTorch: `make learners` runs it
     assert len(tutorials) > 5
-    for path in tutorials:
+    for path in tutorials.values():
         page = (site / "tutorials" / f"{path.stem}.html").read_text(encoding="utf-8")
         assert "cell_output" in page
         assert len(list((site / "_downloads").rglob(f"{path.stem}.ipynb"))) == 1

@@ -8,7 +8,7 @@ period h, the angular velocity changes by
 which is measured, and ∂Δω/∂d = J⁻¹ (τ(t − h − d) − τ(t − d)) follows from the same past wrenches. So d is estimated by
 recursive least squares with forgetting. While moments hardly change, as in hover, they tell nothing, and d stays. A
 false inertia or strength of the rotors makes an error along τ, which does not correlate with the rate of τ. A rotor lag
-longer than believed counts as delay.
+longer than believed counts as delay. An error in proportion to the thrust is the vehicle's trim (see `trim`).
 
 A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. So both
 sides of what is linear in d, e + d̂ s = d s with error e and slope s, pass the same filter, whose band is below that.
@@ -20,6 +20,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
+from flypend.board import trim as trimming
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar
@@ -73,6 +74,7 @@ class DelayEstimator:
             Field("begun", 0, "1 once it has a measurement, else 0"),
             Field("phase", 0, "control periods since the newest forces remembered"),
             Field("found", 0, "the delay, s"),
+            Field.of(trimming.RECORD),
             Field("information", 0, "what the past tells of the delay, rad^2/s^5"),
             Field("omega", 3, "angular velocity at the last measurement, body, rad/s"),
             Field("earlier", 3, "moment that acted then, body, N m"),
@@ -102,13 +104,14 @@ class DelayEstimator:
         b, h = self._believed, self._period
         memory, omega = ca.SX.sym("memory", self.record.length), ca.SX.sym("w", 3)
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
-        begun, phase, delay, known, before, earlier, smooth, smoother, past = self.record.split(memory).values()
+        begun, phase, delay, trim, known, before, earlier, smooth, smoother, past = self.record.split(memory).values()
         entries = self._entries(past, rotors)
         acting, impulse, lever = (self._wrench(entries @ weights) for weights in self.weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
         expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
         wrong = (omega - before) / h - expected
         slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
+        trim = trimming.follow(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], begun, h, b.vehicle)
         share = -np.expm1(-BAND / self._longest * h)
         smooth = smooth + share * (begun * ca.vertcat(wrong + slope * delay, slope) - smooth)
         smoother = smoother + share * (smooth - smoother)
@@ -120,7 +123,7 @@ class DelayEstimator:
         next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
         phase, past = self._age(phase, entries)
         kept = self.record.join({
-            "begun": 1, "phase": phase, "found": found, "information": information, "omega": omega,
+            "begun": 1, "phase": phase, "found": found, "trim": trim, "information": information, "omega": omega,
             "earlier": next_earlier, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
         })  # fmt: skip
         horizon = delay + self._lag_left

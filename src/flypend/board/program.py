@@ -21,6 +21,7 @@ from flypend.board.command import command_width, idle_command, law_command, stee
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, delay_of, segments_of
+from flypend.board.trim import trim
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers
@@ -192,9 +193,9 @@ def board(
     Returns
     -------
     Function
-        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command` and
-        `remembering` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is time and
-        readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
+        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command`,
+        `remembering` and `trimming` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is
+        time and readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
     """
     made = parts(loop, believed)
     believed, read = made.believed, SIZE if made.estimator is None else readings_record(loop.sampled.sensors).length
@@ -219,7 +220,8 @@ def board(
         carry = made.estimator.carry()
         after = ca.vertcat(after, carry(corrected, outside, commands[: carry.size1_in(2)], params))
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
-    return ca.Function("board", [whole, measurement, path, gains, params], [after, given], *names)
+    sent = trimming(made)(after[: made.own.length], given, params)
+    return ca.Function("board", [whole, measurement, path, gains, params], [after, sent], *names)
 
 
 def _predictor(loop: Loop) -> tuple[Segment, ...]:
@@ -283,6 +285,16 @@ def remembering(made: Parts) -> ca.Function:
         rotors = _advance_rotors(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[:-1])
     return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])
+
+
+def trimming(made: Parts) -> ca.Function:
+    """Return (memory, command, params) → command to send, trimmed if the board finds a trim."""
+    memory, _, params = made.symbols
+    command = sent = ca.MX.sym("command", command_width(made.loop))
+    if made.finding is not None:
+        lever = memory[made.own.place("delay.trim.lever")]
+        sent = trim(made.believed, limits=made.loop.sampled.limits)(command, lever, params)
+    return ca.Function("trimmed", [memory, command, params], [sent])
 
 
 def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:

@@ -1,0 +1,59 @@
+"""The trim of a vehicle, found in flight: the moment that its rotors exert beyond their model.
+
+Where the centre of mass is off, or one rotor is weaker than another, a thrust f exerts a moment f ρ beside the modelled
+one τ. The flight computer asks its rotors for f ρ less, with ρ the trim, m. What is sent then acts as the model says, so
+nothing else on board knows of it. Over a control period h the angular velocity tells the mean moment,
+
+    J Δω/h + ω × Jω = τ + f δρ,
+
+with δρ what is wrong with ρ, which follows by recursive least squares with forgetting.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from flypend.board.believed import Believed
+from flypend.compile.record import Field, Record
+from flypend.geometry import Numbers, Scalar, Vector
+from flypend.laws.inverted_gains import angular_authority
+from flypend.plants.actuation import rotor_forces
+
+RECORD = Record(
+    "trim",
+    "Estimator of the trim.",
+    (
+        Field("lever", 3, "moment per thrust beyond the model, body, m"),
+        Field("weighed", 0, "what the past tells of it, N^2 s"),
+    ),
+)
+# Time over which the past is forgotten, s, and how long a hover weighs as much as what is assumed before the flight, s.
+FORGETTING, DOUBT = 0.5, 0.1
+# Largest trim, as a share of the largest moment per weight: with more, there is nothing left to steer with.
+MOST = 0.5
+
+
+def follow(memory: Numbers, lacking: Vector, thrust: Scalar, fresh: Scalar, period: float, vehicle: Any) -> Numbers:
+    """Return the memory (4,) after a `period` (s) in which a moment `lacking` (3,), N m, was seen beyond the model.
+
+    `thrust` is the mean f, N, and `fresh` 1 if anything was measured, else 0.
+    """
+    trim = RECORD.split(memory)
+    weighed = np.exp(-period / FORGETTING) * trim["weighed"] + period * thrust**2
+    gain = fresh * period * thrust / (weighed + DOUBT * vehicle.weight**2)
+    most = MOST * angular_authority(vehicle) * vehicle.I[0, 0] / vehicle.weight
+    lever = ca.fmin(ca.fmax(trim["lever"] + gain * lacking, -most), most)
+    return RECORD.join({"lever": lever, "weighed": weighed})
+
+
+def trim(believed: Believed, *, limits: bool) -> ca.Function:
+    """Return (command (n,), lever (3,), params) → forces (n,) to send for it, N, possible ones if there are `limits`."""
+    command, lever = ca.SX.sym("u", believed.rotors), ca.SX.sym("trim", 3)
+    thrust = ca.sum1(command)
+    moment = ca.mtimes(believed.vehicle.mixing(), command)[1:] - thrust * lever
+    sent = rotor_forces(thrust, moment, believed.vehicle, limits)
+    sent = ca.if_else(ca.norm_1(command) < np.inf, sent, np.nan)  # which limits would hide
+    return ca.Function("trim", [command, lever, believed.symbols], [ca.densify(sent)])

@@ -30,8 +30,8 @@ RECORD = Record(
         Field("weighed", 0, "what the past tells of it, N^2 s"),
     ),
 )
-# Time over which the past is forgotten, s, and how long a hover weighs as much as what is assumed before the flight, s: a
-# first estimate takes a fifth of a second, as a small vehicle with a centre of mass that is off falls over in no more.
+# Time over which the past is forgotten, s, and how long a hover weighs as much as what is assumed before the flight, s:
+# a first estimate takes a fifth of a second; a small vehicle with a centre of mass that is off falls over as fast.
 # With 0.5 s, rotors that spin up slowly are taken for a trim in each flip: 5 to 10 % of such flights miss a catch.
 FORGETTING, DOUBT = 1.5, 0.2
 # Largest trim, as a share of the largest moment per weight: with more, there is nothing left to steer with.

@@ -37,7 +37,8 @@ DRAWS = 6  # vehicles drawn from the bands; each is compiled
 # Random starts of all draws together and of one variant, and both where flights are slow.
 RUNS, VARIANT_RUNS, SLOW_RUNS = 384, 48, 6
 DURATION = 12.0  # s; three times what 95 % of the random starts need
-POKES, POKE_PERIOD, SAMPLE = 48, 6.0, 0.05  # flights, and s: one poke in each half of a flight
+# Flights with pokes, and s: one poke in each half of a flight, which leaves time to swing the rod up again.
+POKES, POKE_PERIOD, SAMPLE = 48, 12.0, 0.05
 NOT_YET = 1e-12  # of a poke, so that all flights of a vehicle share a kernel
 
 Progress = Callable[[str, int, int], Any]
@@ -361,8 +362,9 @@ def _fly_tasks(
                 continue
             one = flight.through(knock_on(vehicle, world, size, POKE_PERIOD)).replace(
                 starts=mine.in_frame(law.e3), seed=(flight.seed or 0) + place,
-                times=np.arange(0.0, DURATION, SAMPLE) if name == "pokes" else None,
             )  # fmt: skip
+            if name == "pokes":
+                one = one.replace(duration=2 * POKE_PERIOD, times=np.arange(0.0, 2 * POKE_PERIOD, SAMPLE))
             flown = _flown(one, 1 if compiled else None)
             good = 0 if flown is None else int((_stands(flown) if name == "pokes" else flown.success).sum())
             found[name] = Count(good, len(mine))
@@ -381,8 +383,8 @@ def _fly_tasks(
 
 
 def _stands(poked: Ensemble) -> Any:
-    """Whether the rod is up for more than half of the last 4 s, as in the trial."""
-    return is_up(poked)[:, -round(4.0 / SAMPLE) :].mean(axis=1) > 0.5
+    """Whether the rod is up for more than half of each half of a flight."""
+    return np.all([half.mean(axis=1) > 0.5 for half in np.hsplit(is_up(poked), 2)], axis=0)
 
 
 def _fly(flight: Flight, worlds: Sequence[Sampled], progress: Callable[[int, int], Any]) -> list[Count]:

@@ -1,0 +1,87 @@
+"""The trim: moments in proportion to the thrust that the model lacks, found in flight and made up for."""
+
+import numpy as np
+import pytest
+
+import flypend as fp
+from flypend.board.believed import Believed
+from flypend.board.computer import SteppedBoard
+from flypend.board.trim import trim
+from flypend.compile.numeric import as_numpy
+from flypend.flight import sampled
+from flypend.flight.request import Flight
+from flypend.flight.sampled import fly_stepwise
+from flypend.flight.tasks import task_starts
+from flypend.plants import PRESETS, ROTORS
+
+VEHICLE = fp.vehicle("crazyflie")
+NONE = np.zeros(0)
+
+
+def found(plant, duration=4.0):
+    """The trim, m, that the board has found after a hover of `duration` (s) in `plant`."""
+    law, boards = fp.laws.inverted().bind(VEHICLE), []
+    original = SteppedBoard.command
+
+    def command(self, t, measured):
+        boards.append(self)
+        return original(self, t, measured)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sampled.SteppedBoard, "command", command)
+        start = fp.State(y=(0.0, 0.0, 1.0))
+        fly_stepwise(Flight(vehicle=VEHICLE, law=law, starts=start, duration=duration, plant=plant, seed=1))
+    board = boards[-1]
+    return board._memory[board._stages.made.own.place("delay.trim.lever")]
+
+
+def test_a_centre_of_mass_that_is_off_is_found():
+    """About it, the thrust exerts −r × f e₃, and the load of the rod r × m g e₃."""
+    off = np.array([0.001, -0.002, 0.0])
+    share = VEHICLE.M / (VEHICLE.M + VEHICLE.m)
+    np.testing.assert_allclose(
+        found(ROTORS.replace(centre_of_mass=off)), -share * np.cross(off, [0, 0, 1]), rtol=0.02, atol=2e-6
+    )
+
+
+def test_unequal_rotors_are_found():
+    strength = np.array([0.97, 1.02, 1.0, 1.01])
+    wrench = VEHICLE.mixing() @ (strength * VEHICLE.weight / 4)
+    np.testing.assert_allclose(found(ROTORS.replace(strength=strength)), wrench[1:] / wrench[0], rtol=0.05, atol=2e-6)
+
+
+def test_nothing_is_found_where_nothing_is_lacking():
+    assert np.abs(found(ROTORS)).max() < 1e-6
+
+
+def test_what_is_sent_takes_the_moment_back():
+    send = as_numpy(trim(Believed.numbers(VEHICLE), limits=True))
+    command, lever = np.array([0.09, 0.1, 0.11, 0.08]), np.array([1e-3, -2e-3, 1e-4])
+    sent = send(command, lever, NONE)
+    wanted = VEHICLE.mixing() @ command
+    wanted[1:] -= wanted[0] * lever
+    np.testing.assert_allclose(VEHICLE.mixing() @ sent, wanted, rtol=0, atol=1e-12)
+    low, high = VEHICLE.rotor_limits
+    full = send(np.full(4, high), lever, NONE)
+    assert np.all((full >= low - 1e-15) & (full <= high + 1e-15))
+    np.testing.assert_allclose((VEHICLE.mixing() @ full)[1:3], -4 * high * lever[:2], rtol=1e-12)
+    assert np.isnan(send(np.array([np.nan, 0.1, 0.1, 0.1]), lever, NONE)).all()
+
+
+def test_crazyflie_stands_with_its_centre_of_mass_off_by_three_millimetres():
+    """Without a trim none of these flights ends up."""
+    starts = task_starts(VEHICLE, 40, 2026)["random"]
+    late = np.arange(10.0, 12.0, 0.02)
+    flown = fp.simulate_ensemble(
+        VEHICLE, fp.laws.inverted(), starts, 12, plant=ROTORS.replace(centre_of_mass=(0.0, 0.003, 0.0)), times=late
+    )
+    assert flown.success.sum() >= 38
+    assert np.percentile(np.linalg.norm(flown.samples.x, axis=-1), 95) < 0.02
+
+
+def test_a_laboratory_leaves_crazyflie_standing():
+    """All its errors at once, 20 s: the centre of mass alone cost every flight without a trim."""
+    flown = fp.simulate_ensemble(
+        VEHICLE, fp.laws.inverted(), task_starts(VEHICLE, 40, 2026)["random"], 20, plant=PRESETS["laboratory"]
+    )
+    assert flown.success.sum() >= 34

@@ -229,7 +229,8 @@ def test_without_noise_and_errors_the_estimate_is_the_truth(suite):
     # 4 ms late turns the estimate by that much, which at 2 rad/s looks as if poses came 0.1 ms late: 5 m/s of that.
     assert np.max(np.abs(s.x - e.x)) < (5e-4 if suite is EVERYTHING else 1e-4)
     assert np.max(np.abs(s.y - e.y)) < 1e-3
-    assert np.max(np.abs(s.R - e.R)) < 1e-3
+    # It also looks like a moment that the model lacks, which the trim then adds and the estimate does not expect.
+    assert np.max(np.abs(s.R - e.R)) < (2e-3 if suite is EVERYTHING else 1e-3)
     assert np.max(np.abs(s.omega - e.omega)) < 5e-2  # a gyroscope 4 ms late, through rotor moments of 200 rad/s²
 
 

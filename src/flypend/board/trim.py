@@ -57,5 +57,5 @@ def trim(believed: Believed, *, limits: bool) -> ca.Function:
     thrust = ca.sum1(command)
     moment = ca.mtimes(believed.vehicle.mixing(), command)[1:] - thrust * lever
     sent = rotor_forces(thrust, moment, believed.vehicle, limits)
-    sent = ca.if_else(ca.norm_1(command) < np.inf, sent, np.nan)  # which limits would hide
+    sent = ca.if_else(ca.fabs(thrust) < np.inf, sent, np.nan)  # NaN, which limits would hide
     return ca.Function("trim", [command, lever, believed.symbols], [ca.densify(sent)])

@@ -298,7 +298,7 @@ def test_distances_to_disc_and_arm_are_bounds_of_those_in_the_world(monkeypatch)
     """Where the checker lets the rod lean, the clearances of the world are positive; beyond, they soon are not."""
     body = HEHN.body
     for height in (0.0, 0.05, -0.05):
-        rotors = HEHN.rotor_positions + (0, 0, height)
+        rotors = HEHN.rotor_positions + np.array([0, 0, height])
         made = {"body": {"rotors": rotors.tolist(), **{k: v for k, v in vars(body).items() if k != "cup_angle"}}}
         allowed = []
         for theta in np.radians(np.arange(0.0, 90.0, 0.5)):

@@ -2,8 +2,9 @@
 
 The file says: for every state with V ≤ c and |ω₃| ≤ w, at any heading, the law asks each rotor for a force within its
 limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. With a body, the
-rod of a hub touches neither rotor disc nor arm. This module imports nothing of flypend. It evaluates the law's program on Taylor models of degree 3 over the unit ball, which
-contains {V ≤ c} in the coordinates of the chart lemma (docs/laws/theorem-proof.md, section 8):
+rod of a hub touches neither rotor disc nor arm. This module imports nothing of flypend. It evaluates the law's program
+on Taylor models of degree 3 over the unit ball, which contains {V ≤ c} in the coordinates of the chart lemma
+(docs/laws/theorem-proof.md, section 8):
 
     value = P(x) + δ(x),   P = a + l·x + x·Qx + T(x, x, x),   |x| ≤ 1,   ξ = diag(radii) x
 
@@ -236,8 +237,9 @@ def _errors(values: list[Value], targets: Sequence[int], n: int) -> Any:
             met.append(here)
             added.append((lost, lost + bent))
         if met and (len(met) == MET or not i):
-            all_, sizes = np.stack(met), np.array(added).T
-            found += sizes[0] @ np.abs(all_[:, 0]) + sizes[1] @ np.sqrt(np.einsum("ijk,ijk->ik", all_[:, 1:], all_[:, 1:]))
+            all_, (constant, linear) = np.stack(met), np.array(added).T
+            found += constant @ np.abs(all_[:, 0])
+            found += linear @ np.sqrt(np.einsum("ijk,ijk->ik", all_[:, 1:], all_[:, 1:]))
             met.clear()
             added.clear()
     return found * UP

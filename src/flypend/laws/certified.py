@@ -26,7 +26,6 @@ from flypend.laws.certificate import (
     NotProvedError,
     Polynomial,
     evaluate_program,
-    lean,
     outside,
     radii,
     ranges_of,
@@ -44,8 +43,8 @@ BODY = ("M", "m", "l", "g")
 # The yaw rate takes this share of the room between hover and the limits, and is at most 1 rad/s.
 YAW_SHARE, MOST_YAW = 0.05, 1.0
 # The search for c begins at SOME l g, which most vehicles come near, or where the linear part of the forces uses LINEAR
-# of the room; it ends in vain below LEAST l g. It aims at the share AIM, which is taken to grow like the power STEEP of c
-# until two are known. CLOSE is the ratio of what is not proved to what is; APART that of two points of a secant.
+# of the room; it ends in vain below LEAST l g. It aims at the share AIM, which is taken to grow like the power STEEP of
+# c until two are known. CLOSE is the ratio of what is not proved to what is; APART that of two points of a secant.
 SOME, LINEAR, LEAST, AIM, STEEP, CLOSE, APART = 9e-3, 0.785, 1e-9, 0.97, 4.5, 1.05, 1.03
 # Points of the chart, |ξ_i| < REACH, at which a program is compared with ours and with the law; largest relative
 # differences. The first is some hundred roundoffs; the second leaves room for moments that cancel.
@@ -150,7 +149,7 @@ def ratios(
 def certified_set(law: BoundLaw) -> CertifiedSet:
     """Return the largest set that is proved for `law`, within 5 % of c.
 
-    Takes seconds, and half a minute through a lag. Raises InputError if the theorem does not cover the law's vehicle
+    Takes seconds, and through a lag some ten. Raises InputError if the theorem does not cover the law's vehicle
     or reference, or nothing can be proved.
     """
     missing = list_unmodelled(law.vehicle, on_hub=True)
@@ -188,7 +187,8 @@ def _guess(found: dict[str, Any], most: float) -> float:
     chart, k = chart_function(tuple(numbers)), list(numbers.values())
     ends = np.diag(radii(numbers, tiny))  # so near that differences are the linear part
     forth, back = (np.array([np.ravel(chart(xi, k)[0]) for xi in side]) for side in (ends, -ends))
-    models = [(Polynomial(float(a), l), 0.0) for a, l in zip((forth + back)[0] / 2, ((forth - back) / 2).T, strict=True)]
+    middle, slopes = (forth + back)[0] / 2, (forth - back).T / 2
+    models = [(Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
     share = _largest(found, ranges_of(found, tiny, 0.0, split(models)))
     return min(most, tiny * (LINEAR / share) ** 2)
 
@@ -245,7 +245,7 @@ def _solid(vehicle: Vehicle) -> dict[str, Any] | None:
 
 @lru_cache(maxsize=8)
 def chart_function(names: tuple[str, ...]) -> ca.Function:
-    """Return (ξ, numbers) → f and u of each wrench, ż and y·z, and p − p_ref, v, y, ẏ and z (15,), of the law in the chart.
+    """Return (ξ, numbers) → f and u of each wrench, ż and y·z; and p − p_ref, v, y, ẏ and z (15,): the law in the chart.
 
     The law is the one through a lag if "rotor_lag" is among the `names` of the numbers.
     """
@@ -265,26 +265,34 @@ def chart_function(names: tuple[str, ...]) -> ca.Function:
 
 
 _NAMES = {
-    ca.OP_ADD: "add", ca.OP_SUB: "sub", ca.OP_MUL: "mul", ca.OP_NEG: "neg", ca.OP_SQRT: "sqrt",
+    ca.OP_ADD: "add", ca.OP_SUB: "sub", ca.OP_MUL: "mul", ca.OP_NEG: "neg", ca.OP_SQRT: "sqrt", ca.OP_SQ: "mul",
+    ca.OP_TWICE: "add", ca.OP_INPUT: "input",
 }  # fmt: skip
+
+
+class _Operations:
+    """Operations (name, places of arguments, constant), each once, with their places."""
+
+    def __init__(self) -> None:
+        self.places: dict[tuple[str, tuple[int, ...], float], int] = {}
+
+    def put(self, name: str, arguments: list[int], value: float = 0.0) -> int:
+        """Return the place of an operation."""
+        if name in ("add", "mul"):
+            arguments = sorted(arguments)
+        return self.places.setdefault((name, tuple(arguments), value), len(self.places))
+
+    def divide(self, above: list[int], below: int) -> int:
+        """Return the place of a quotient, of 1 if nothing is `above`: many share a denominator."""
+        inverse = self.put("div", [self.put("constant", [], 1.0), below])
+        return self.put("mul", [*above, inverse]) if above else inverse
 
 
 @lru_cache(maxsize=8)
 def _program(names: tuple[str, ...]) -> tuple[list[Any], list[int]]:
-    """Return the wrenches of the chart as operations [name, places of arguments, constant], and the places of ż and y·z too."""
+    """Return the wrenches, ż and y·z of the chart as operations [name, places, constant], and the places of these."""
     function = chart_function(names).slice("law", [0, 1], [0]).expand()
-    places_of: dict[tuple[str, tuple[int, ...], float], int] = {}  # each operation once
-    work: dict[int, int] = {}
-    outputs = [0] * function.nnz_out(0)
-
-    def put(name: str, places: list[int], value: float = 0.0) -> int:
-        if name in ("add", "mul"):
-            places = sorted(places)
-        return places_of.setdefault((name, tuple(places), value), len(places_of))
-
-    def inverse(place: int) -> int:
-        return put("div", [put("constant", [], 1.0), place])
-
+    made, work, outputs = _Operations(), dict[int, int](), [0] * function.nnz_out(0)
     for i in range(function.n_instructions()):
         code, taken, given = (
             function.instruction_id(i), function.instruction_input(i), function.instruction_output(i)
@@ -293,19 +301,14 @@ def _program(names: tuple[str, ...]) -> tuple[list[Any], list[int]]:
             if given[0] == 0:
                 outputs[given[1]] = work[taken[0]]
             continue
+        arguments = list(taken) if code == ca.OP_INPUT else [work[slot] for slot in taken]
         if code == ca.OP_CONST:
-            work[given[0]] = put("constant", [], float(function.instruction_constant(i)))
-        elif code == ca.OP_INPUT:
-            work[given[0]] = put("input", list(taken))
-        elif code in (ca.OP_SQ, ca.OP_TWICE):
-            work[given[0]] = put("mul" if code == ca.OP_SQ else "add", [work[taken[0]]] * 2)
-        elif code == ca.OP_INV:
-            work[given[0]] = inverse(work[taken[0]])
-        elif code == ca.OP_DIV:  # many share a denominator
-            work[given[0]] = put("mul", [work[taken[0]], inverse(work[taken[1]])])
+            work[given[0]] = made.put("constant", [], float(function.instruction_constant(i)))
+        elif code in (ca.OP_INV, ca.OP_DIV):
+            work[given[0]] = made.divide(arguments[:-1], arguments[-1])
         else:
-            work[given[0]] = put(_NAMES[code], [work[slot] for slot in taken])
-    return [[name, list(places), value] for name, places, value in places_of], outputs
+            work[given[0]] = made.put(_NAMES[code], arguments * (2 if code in (ca.OP_SQ, ca.OP_TWICE) else 1))
+    return [[name, list(places), value] for name, places, value in made.places], outputs
 
 
 def differs(certificate: dict[str, Any], law: BoundLaw) -> str:

@@ -459,7 +459,7 @@ def check(certificate: Any) -> str:
         return "c must be positive, and w not negative"
     try:
         answer = evaluate_program(certificate, c)
-        return outside(certificate, ranges_of(certificate, c, w, answer)) or touching(certificate, answer)
+        return outside(certificate, ranges_of(certificate, c, w, answer)) or touching(certificate, lean(answer))
     except NotProvedError as reason:
         return str(reason)
 
@@ -481,17 +481,16 @@ def lean(answer: Answer) -> float:
     return 2 * math.asin(math.sqrt((1 - least) / 2)) * UP if least > -1 else math.pi
 
 
-def touching(certificate: Any, answer: Answer) -> str:
+def touching(certificate: Any, theta: float) -> str:
     """Return what the rod may touch, in one line; empty if it is known to touch nothing, or there is no body.
 
-    Let θ bound the angle between rod and axis. A point at the distance r from the axis and the height h is at least
+    θ, rad, bounds the angle between rod and axis. A point at the distance r from the axis and the height h is at least
     r cos θ − |h| sin θ from the line along the rod, if that is positive: the angle between the two is at least
     π/2 − θ − arctan(|h|/r). An arm begins at the rim of the hub like the rod, and the distance there is the least.
     """
     body = certificate["body"]
     if body is None:
         return ""
-    theta = lean(answer)
     for i, (x, y, height) in enumerate(body["rotors"]):
         from_axis, height = math.hypot(x, y), abs(height)
         disc = (from_axis - body["disc_radius"]) * math.cos(theta) - height * math.sin(theta) - body["rod_radius"]

@@ -26,6 +26,7 @@ from flypend.laws.certificate import (
     NotProvedError,
     Polynomial,
     evaluate_program,
+    lean,
     outside,
     radii,
     ranges_of,
@@ -186,7 +187,7 @@ def _guess(found: dict[str, Any], most: float) -> float:
     tiny, numbers = 1e-6 * most, found["numbers"]
     chart, k = chart_function(tuple(numbers)), list(numbers.values())
     ends = np.diag(radii(numbers, tiny))  # so near that differences are the linear part
-    forth, back = (np.array([np.ravel(chart(xi, k)[0]) for xi in side]) for side in (ends, -ends))
+    forth, back = (np.array([np.array(chart(xi, k)[0]).ravel() for xi in side]) for side in (ends, -ends))
     middle, slopes = (forth + back)[0] / 2, (forth - back).T / 2
     models = [(Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
     share = _largest(found, ranges_of(found, tiny, 0.0, split(models)))
@@ -201,7 +202,7 @@ def _share(found: dict[str, Any], c: float) -> float:
         return math.inf
     ranges = ranges_of(found, c, found["w"], answer)
     share = _largest(found, ranges)
-    return max(1.0 + 1e-9, share) if outside(found, ranges) or touching(found, answer) else share
+    return max(1.0 + 1e-9, share) if outside(found, ranges) or touching(found, lean(answer)) else share
 
 
 def _largest(found: dict[str, Any], ranges: list[tuple[float, float]]) -> float:
@@ -245,7 +246,7 @@ def _solid(vehicle: Vehicle) -> dict[str, Any] | None:
 
 @lru_cache(maxsize=8)
 def chart_function(names: tuple[str, ...]) -> ca.Function:
-    """Return (ξ, numbers) → f and u of each wrench, ż and y·z; and p − p_ref, v, y, ẏ and z (15,): the law in the chart.
+    """Return (ξ, numbers) → f and u of each wrench, ż, y·z, and p − p_ref, v, y, ẏ, z (15,) of the law in the chart.
 
     The law is the one through a lag if "rotor_lag" is among the `names` of the numbers.
     """

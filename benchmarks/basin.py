@@ -12,7 +12,7 @@ RUNS = {"hehn2011": 1_000_000, "crazyflie": 100_000}
 LAGGED = {"hehn2011": 20_000, "crazyflie": 20_000}
 SEED = 20261123  # used for nothing else
 # Starts and lag, and how many starts of each vehicle.
-ON_HUB = {("hanging", False): 50_000, ("random", False): 20_000, ("hanging", True): 20_000, ("random", True): 10_000}
+ON_HUB = {("hanging", False): 10_000, ("random", False): 5_000, ("hanging", True): 3_000, ("random", True): 2_000}
 HUBS, HUB_SEED = ("hehn2011",), 20261125  # used for nothing else
 
 

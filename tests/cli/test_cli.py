@@ -753,4 +753,12 @@ def test_the_basin_is_that_of_the_library(call, tmp_path):
     found = measure_basin(fp.vehicle("hehn2011"), 25, 5)
     assert code == 0
     assert json.loads((tmp_path / "out" / "basin.json").read_text(encoding="utf-8")) == dataclasses.asdict(found)
-    assert f"{found.entered} of 25" in told
+    assert f"{found.entered} of 25 random starts" in told
+
+
+def test_a_basin_on_a_hub_is_asked_for_by_options(call, tmp_path):
+    code, told, _ = call("theorem", "--basin", "--mount", "hub", "--hanging", "--runs", "10", "-o", "out")
+    assert code == 0
+    found = json.loads((tmp_path / "out" / "basin.json").read_text(encoding="utf-8"))
+    assert (found["mount"], found["starts"], found["entered"]) == ("hub", "hanging", 10)
+    assert "10 of 10 hanging starts" in told

@@ -22,14 +22,15 @@ from flypend.laws import certificate, references
 from flypend.laws.certified import _run, _state, chart_function, differs
 from flypend.laws.chart import SIZE, law_at
 from flypend.model import State
+from flypend.model.mount import clearances
 
 HEHN = fp.vehicle("hehn2011")
 
 
 @cache
-def found(name="hehn2011", lag=False):
+def found(name="hehn2011", lag=False, mount="gimbal"):
     law = fp.laws.almost_global_lag() if lag else fp.laws.almost_global()
-    return law.bind(fp.vehicle(name)).certified_set()
+    return law.bind(fp.vehicle(name).replace(mount=mount)).certified_set()
 
 
 @pytest.mark.parametrize(
@@ -133,8 +134,8 @@ def test_taylor_models_contain_what_the_program_answers(share, least):
     ctx.prec = BITS
     c = share * made["c"]
     sizes = [arb(size) for size in certificate.radii(made["numbers"], c)]
-    (commanded,), turning = certificate.evaluate_wrenches(made, c)
-    models, used = [*commanded, *turning], 0.0
+    (commanded,), turning, cosine = certificate.evaluate_program(made, c)
+    models, used = [*commanded, *turning, cosine], 0.0
     for i in range(8):
         x = rng.normal(size=SIZE)
         x *= (1.0 if i % 3 else rng.random()) / np.linalg.norm(x) / (1 + 1e-12)
@@ -269,11 +270,55 @@ def test_what_the_set_contains_and_how_far_it_reaches():
         assert certified.contains(state) == inside
 
 
+def test_on_a_hub_the_rod_is_proved_to_touch_nothing():
+    """The set is that of a gimbal, for the rod leans far less than it may."""
+    hub = found(mount="hub")
+    made = hub.certificate
+    assert hub.c == found().c
+    assert certificate.check(made) == differs(made, hub.law) == ""
+    answer = certificate.evaluate_program(made, hub.c)
+    most, worst = certificate.lean(answer), np.linalg.eigh(answer.cosine[0].Q)[1][:, 0]
+    xi, numbers = worst * certificate.radii(made["numbers"], hub.c), list(made["numbers"].values())
+    asked = np.array(chart_function(tuple(made["numbers"]))(xi, numbers)[0]).ravel()
+    assert most / 3 < np.arccos(asked[-1]) < most  # the bound holds, and is no empty word
+    for change in (
+        {"disc_radius": made["body"]["disc_radius"] + 0.102},
+        {"arm_radius": 0.04},
+        {"hub_radius": 0.007},
+        {"rotors": [[x, y, 0.6] for x, y, _ in made["body"]["rotors"]]},
+    ):
+        wrong = made | {"body": made["body"] | change}
+        assert "the rod may touch" in certificate.touching(wrong, most), change
+    assert "the rod may touch" in certificate.check(wrong)
+    for body in (wrong["body"], None):
+        assert differs(made | {"body": body}, hub.law) == "its body is not that of the law"
+
+
+def test_distances_to_disc_and_arm_are_bounds_of_those_in_the_world():
+    """Where the checker lets the rod lean, the clearances of the world are positive; beyond, they soon are not."""
+    body = HEHN.body
+    for height in (0.0, 0.05, -0.05):
+        rotors = HEHN.rotor_positions + np.array([0, 0, height])
+        made = {"body": {"rotors": rotors.tolist(), **{k: v for k, v in vars(body).items() if k != "cup_angle"}}}
+        allowed = []
+        for theta in np.radians(np.arange(0.0, 90.0, 0.5)):
+            around = np.radians(np.arange(0.0, 360.0, 1.0))
+            rod = np.stack(
+                [np.sin(theta) * np.cos(around), np.sin(theta) * np.sin(around), np.full(360, np.cos(theta))], axis=-1
+            )
+            clear = np.min(clearances(rod, rotors, HEHN.reach, body)) > 0
+            free = certificate.touching(made, theta) == ""
+            assert clear or not free
+            allowed.append((free, clear))
+        free, clear = np.sum(allowed, axis=0)
+        assert height < 0 or free >= 0.8 * clear  # discs below the pivot are taken for discs above it
+
+
 def test_where_no_set_can_be_certified():
     with pytest.raises(fp.InputError, match=r"^law: expected almost_global, on its own path"):
         fp.laws.inverted().bind(HEHN).certified_set()
     with pytest.raises(fp.InputError, match=r"^law\.vehicle: expected one that the theorem models"):
-        fp.laws.almost_global().bind(HEHN.replace(mount="hub")).certified_set()
+        fp.laws.almost_global().bind(HEHN.replace(mount="cup")).certified_set()
     with pytest.raises(fp.InputError, match=r"^law\.reference: expected one at rest"):
         fp.laws.almost_global(references.circle(0.5, 1.0)).bind(HEHN).certified_set()
     with pytest.raises(fp.InputError, match=r"^vehicle\.rotor_limits: expected forces beyond those of hover"):

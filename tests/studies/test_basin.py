@@ -7,6 +7,7 @@ import pytest
 from scipy.stats import binomtest
 
 import flypend as fp
+from flypend.flight.tasks import SWAY, free_starts, random_hanging, touching
 from flypend.studies import basin
 from flypend.studies.basin import measure_basin
 
@@ -60,8 +61,35 @@ def test_no_runs_are_refused():
 
 def test_what_the_theorem_does_not_model_is_refused():
     with pytest.raises(fp.InputError) as error:
-        measure_basin(VEHICLE.replace(mount="hub"), 10, 3)
+        measure_basin(VEHICLE.replace(mount="cup"), 10, 3)
     assert error.value.field == "law.vehicle"
+    with pytest.raises(fp.InputError) as error:
+        measure_basin(VEHICLE, 10, 3, starts="level")
+    assert error.value.field == "starts"
+
+
+def test_on_a_hub_starts_are_free_and_a_flight_ends_where_it_touches(certified):
+    hub = VEHICLE.replace(mount="hub")
+    found = measure_basin(hub, 100, 3, starts="hanging")
+    assert (found.mount, found.starts, found.entered) == ("hub", "hanging", 100)
+    starts = free_starts(hub, basin.DRAWS["random"], np.random.default_rng(5), 200)
+    assert not touching(hub, starts).any()
+    entering = basin._entering(fp.laws.inverted().bind(hub), certified, starts, *basin.PASSES[1])
+    flown = fp.simulate_ensemble(hub, fp.laws.inverted(), starts, 40.0, plant=fp.Ideal(limits=True))
+    touched = np.isfinite(flown.end) & (flown.clearance <= 0)
+    assert 5 < touched.sum() < 100
+    np.testing.assert_array_equal(np.isnan(entering), touched)
+
+
+def test_hanging_starts_are_level_at_rest_near_straight_down():
+    starts = random_hanging(np.random.default_rng(3), 4000)
+    angle = np.pi - np.arccos(starts.y[:, 2])
+    assert 0.99 * SWAY < angle.max() <= SWAY
+    # Uniform on the cap: half of its area lies within 10°/√2 of its centre, nearly.
+    assert np.median(angle) == pytest.approx(SWAY / np.sqrt(2), rel=0.03)
+    np.testing.assert_allclose(starts.R[:, :, 2], np.broadcast_to([0, 0, 1], (4000, 3)), rtol=0, atol=1e-15)
+    assert not starts.omega.any()
+    assert not starts.y_dot.any()
 
 
 def test_the_numbers_are_saved(tmp_path):

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from flypend.cli.options import out_option, refuse_idle, style_option, vehicle_option
 from flypend.cli.terminal import bold, console, counter
+
+if TYPE_CHECKING:
+    from flypend.model import Vehicle
 
 
 @click.command()
@@ -19,12 +23,15 @@ from flypend.cli.terminal import bold, console, counter
 @click.option("--seed", type=click.IntRange(min=0), default=7, help="Seed of the random starts.")
 @click.option("--basin", is_flag=True, help="Count the random starts that end in the certified set, within limits.")
 @click.option("--lag", is_flag=True, help="With --basin: rotors lag as well.")
+@click.option("--hanging", is_flag=True, help="With --basin: the rod hangs at the start, within 10° of straight down.")
+@click.option("--mount", help="With --basin: what carries the rod, gimbal or hub; default the vehicle's own.")
 @vehicle_option
 @style_option
 @click.pass_context
 def theorem(
-    context: click.Context, out: Path, runs: int, seed: int, basin: bool, lag: bool, vehicle: str, style: str
-) -> None:
+    context: click.Context, out: Path, runs: int, seed: int, basin: bool, lag: bool, hanging: bool, mount: str | None,
+    vehicle: str, style: str,
+) -> None:  # fmt: skip
     """Fly the laws of Theorems A and B and check every claim: Theorem 1 repaired, and the inverted pendulum.
 
     Writes V(t) with its terms, the regions of attraction with their exceptional sets, report.md and report.json.
@@ -32,14 +39,19 @@ def theorem(
 
     With --basin, counts the random starts from which the inverted law brings --vehicle, with rotor limits, into the
     certified set, where Theorem B's law takes over, and writes basin.json. With --lag, the rotors lag too, and Theorem
-    D's law takes over.
+    D's law takes over. On a hub, a flight ends where the rod touches a rotor disc or an arm.
     """
     if basin:
         refuse_idle("style", why="with --basin, which draws nothing")
         given = context.get_parameter_source("runs") is click.core.ParameterSource.COMMANDLINE
-        _basin(out, runs if given else 100_000, seed, vehicle, lag)
+        from flypend import model
+
+        machine = model.vehicle(vehicle)
+        if mount is not None:
+            machine = machine.replace(mount=mount)
+        _basin(out, runs if given else 100_000, seed, machine, lag, "hanging" if hanging else "random")
         return
-    refuse_idle("vehicle", "lag", why="without --basin")
+    refuse_idle("vehicle", "lag", "hanging", "mount", why="without --basin")
     from flypend.report.text import summary_table
     from flypend.report.theorem import check_theorems, descent_table
 
@@ -51,16 +63,16 @@ def theorem(
     console.print(f"Report and figures are in {bold(out)}; docs/laws/theorem-proof.md has the proofs.")
 
 
-def _basin(out: Path, runs: int, seed: int, vehicle: str, lag: bool) -> None:
-    from flypend import model
+def _basin(out: Path, runs: int, seed: int, vehicle: Vehicle, lag: bool, starts: str) -> None:
     from flypend.files.staging import staging
     from flypend.studies.basin import measure_basin
 
     with staging(out) as folder, counter() as tell:
-        found = measure_basin(model.vehicle(vehicle), runs, seed, lag=lag, progress=tell)
+        found = measure_basin(vehicle, runs, seed, lag=lag, starts=starts, progress=tell)
         found.save(folder / "basin.json")
     delayed = "lag" if lag else "no lag"
-    console.print(f"{found.vehicle}, {found.law} law, rotor limits, {delayed}; certified set V ≤ {found.c:.3g} m²/s²")
+    about = f"{found.vehicle} on a {found.mount}, {found.law} law, rotor limits, {delayed}"
+    console.print(f"{about}; certified set V ≤ {found.c:.3g} m²/s²")
     last = "" if found.slowest is None else f", the last after {found.slowest:g} s"
-    console.print(f"{found.entered} of {found.runs} random starts enter it{last}.")
+    console.print(f"{found.entered} of {found.runs} {found.starts} starts enter it{last}.")
     console.print(f"At 95 %, at least {100 * found.least:.5f} % of such starts do. Numbers are in {bold(out)}.")

@@ -28,6 +28,7 @@ TASKS: Mapping[str, str] = {
 LEANS = np.radians(np.arange(5.0, 61.0, 5.0))
 ASKEW = 0.02  # rad, how far a hanging rod is from straight down: none hangs better
 TICK = 0.02  # s, at which leans are sampled
+SWAY = np.radians(10.0)  # how far a rod hangs from straight down at most, where hanging starts are random
 MOST_DRAWS = 200  # as many random starts are drawn for each one that is wanted
 
 
@@ -52,8 +53,8 @@ def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) ->
     if vehicle.mount == "cup":
         return {"hover": starts["hover"], "lean": starts["lean"], "random": _in_cup(vehicle, rng, runs)}
     return starts | {
-        "level": _free(vehicle, _level, np.random.default_rng((seed, 1)), runs),
-        "random": _free(vehicle, State.random, rng, runs),
+        "level": free_starts(vehicle, _level, np.random.default_rng((seed, 1)), runs),
+        "random": free_starts(vehicle, State.random, rng, runs),
     }
 
 
@@ -93,11 +94,21 @@ def _hanging(rng: np.random.Generator, directions: int) -> State:
     return State(y=y, R=_headings(rng.uniform(0, 2 * np.pi, len(y))))
 
 
+def random_hanging(rng: np.random.Generator, runs: int) -> State:
+    """Level vehicles at rest, at any heading, with the rod anywhere within `SWAY` of straight down."""
+    return State(y=-_near_e3(rng, runs, SWAY), R=_headings(rng.uniform(0, 2 * np.pi, runs)))
+
+
 def _in_cup(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
     """Level vehicles at rest with the rod anywhere within half the angle of the cone."""
-    cosine = rng.uniform(np.cos(vehicle.body.cup_angle / 2), 1.0, runs)
+    return State(y=_near_e3(rng, runs, vehicle.body.cup_angle / 2))
+
+
+def _near_e3(rng: np.random.Generator, runs: int, most: float) -> Vector:
+    """Unit vectors (runs, 3), uniform within the angle `most` (rad) of e₃."""
+    cosine = rng.uniform(np.cos(most), 1.0, runs)
     angle, sine = rng.uniform(0, 2 * np.pi, runs), np.sqrt(1 - cosine**2)
-    return State(y=np.stack([sine * np.cos(angle), sine * np.sin(angle), cosine], axis=-1))
+    return np.stack([sine * np.cos(angle), sine * np.sin(angle), cosine], axis=-1)
 
 
 def _level(rng: np.random.Generator, runs: int) -> State:
@@ -106,7 +117,7 @@ def _level(rng: np.random.Generator, runs: int) -> State:
     return State(y=y / np.linalg.norm(y, axis=-1, keepdims=True), R=_headings(rng.uniform(0, 2 * np.pi, runs)))
 
 
-def _free(
+def free_starts(
     vehicle: Vehicle, draw: Callable[[np.random.Generator, int], State], rng: np.random.Generator, runs: int
 ) -> State:
     """States from `draw` whose rod touches nothing: `runs` of them, in the order in which they are drawn.

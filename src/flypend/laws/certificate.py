@@ -1,9 +1,10 @@
 """Check a certificate of Theorem C by validated computation: `python -m flypend.laws.certificate FILE`.
 
 The file says: for every state with V ≤ c and |ω₃| ≤ w, at any heading, the law asks each rotor for a force within its
-limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. This module
-imports nothing of flypend. It evaluates the law's program on Taylor models of degree 3 over the unit ball, which
-contains {V ≤ c} in the coordinates of the chart lemma (docs/laws/theorem-proof.md, section 8):
+limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. With a body, the
+rod of a hub touches neither rotor disc nor arm. This module imports nothing of flypend. It evaluates the law's program
+on Taylor models of degree 3 over the unit ball, which contains {V ≤ c} in the coordinates of the chart lemma
+(docs/laws/theorem-proof.md, section 8):
 
     value = P(x) + δ(x),   P = a + l·x + x·Qx + T(x, x, x),   |x| ≤ 1,   ξ = diag(radii) x
 
@@ -35,6 +36,8 @@ BLOCK = 1000  # operations between two backward passes: fewer cost time, and mor
 # Relative to the sizes of what is summed: a value of at most 10⁴ terms, each a few operations of 2⁻⁵³. A sum of
 # non-negative numbers is larger than computed by less than UP. TINY: underflow.
 ROUND, UP, TINY = 1e-12, 1 + 1e-11, 1e-280
+GAP = 1e-9  # m, more than rounding moves a distance
+MET = 100  # values whose share of a bound is added at a time
 
 
 class NotProvedError(Exception):
@@ -188,40 +191,57 @@ def inverse(A: Polynomial, error: float) -> Result:
     return compose(A, error, (1 / a, -1 / a**2, 1 / a**3, -1 / a**4), 1 / least**5 * UP, 6 / sure**4 * UP)
 
 
+class Edge(NamedTuple):
+    """What a value takes from that at the place j: the factor C = a + l·x ± radius, and a bound on |l|."""
+
+    j: int
+    a: float
+    l: Any
+    radius: float
+    steep: float
+
+
 @dataclass(eq=False)
 class Value:
-    """What an operation answers: P until it is used no more, rho, a bound on |δ|, and (j, C_ij)."""
+    """What an operation answers: P until it is used no more, rho, a bound on |δ|, and the factors C_ij."""
 
     P: Polynomial | None
     rho: float = 0.0
     error: float = 0.0
-    passed: tuple[tuple[int, Factor], ...] = ()
+    passed: tuple[Edge, ...] = ()
 
 
 def _errors(values: list[Value], targets: Sequence[int], n: int) -> Any:
     """Return bounds on |δ| of the `targets`, carried backwards, for x in R^n."""
-    rows, found = len(targets), np.zeros(len(targets))
-    waiting = {place: np.zeros((rows, 1 + n)) for place in targets}  # λ of each target, constant and linear part
+    rows = len(targets)
+    waiting = {place: np.zeros((1 + n, rows)) for place in targets}  # λ of each target, constant and linear part
     for row, place in enumerate(targets):
-        waiting[place][row, 0] = 1.0
+        waiting[place][0, row] = 1.0
+    # A value that meets λ adds `lost` |λ| and `bent` |linear part of λ|; many at a time.
+    found, met, added = np.zeros(rows), [], []
     for i in range(max(targets), -1, -1):
         here, value = waiting.pop(i, None), values[i]
-        if here is None:
-            continue
-        linear = np.sqrt(np.einsum("ij,ij->i", here[:, 1:], here[:, 1:]))
-        size = np.abs(here[:, 0]) + linear
-        found += (value.rho + TINY) * size
-        for j, (a, l, radius) in value.passed:
-            there = waiting.get(j)
-            if there is None:
-                there = waiting[j] = np.zeros((rows, 1 + n))
-            there += a * here
-            lost, error = (radius + ROUND * abs(a)) * size, values[j].error
-            if l is not None:
-                steep = _length(l)
-                there[:, 1:] += here[:, :1] * l
-                lost = lost + steep * (linear + ROUND * size)
-            found += lost * error
+        if here is not None:
+            lost, bent = value.rho + TINY, 0.0
+            for j, a, l, radius, steep in value.passed:
+                error = values[j].error
+                lost += (radius + ROUND * (abs(a) + steep)) * error
+                bent += steep * error
+                moved = a * here
+                if l is not None:
+                    moved[1:] += l[:, None] * here[0]
+                if j in waiting:
+                    waiting[j] += moved
+                else:
+                    waiting[j] = moved
+            met.append(here)
+            added.append((lost, lost + bent))
+        if met and (len(met) == MET or not i):
+            all_, (constant, linear) = np.stack(met), np.array(added).T
+            found += constant @ np.abs(all_[:, 0])
+            found += linear @ np.sqrt(np.einsum("ijk,ijk->ik", all_[:, 1:], all_[:, 1:]))
+            met.clear()
+            added.clear()
     return found * UP
 
 
@@ -237,8 +257,11 @@ class _Tape:
     def put(self, result: Result, *arguments: int) -> int:
         """Append what an operation on the values at `arguments` answers, and return its place."""
         P, rho, factors = result
-        passed = [(j, C) for j, C in zip(arguments, factors, strict=True) if self.values[j].error > 0]
-        error = rho + sum((abs(C.a) + _length(C.l) + C.radius) * self.values[j].error for j, C in passed)
+        passed, error = [], rho
+        for j, C in zip(arguments, factors, strict=True):
+            if self.values[j].error > 0:
+                passed.append(Edge(j, *C, _length(C.l)))
+                error += (abs(C.a) + passed[-1].steep + C.radius) * self.values[j].error
         self.values.append(Value(P, rho, error * UP + TINY if arguments else 0.0, tuple(passed)))
         return len(self.values) - 1
 
@@ -324,8 +347,21 @@ def radii(k: Any, c: float) -> list[float]:
     return [math.sqrt(2 * c / weight) * UP for weight in weights]
 
 
-def evaluate_wrenches(certificate: Any, c: float) -> tuple[list[list[Model]], list[Model]]:
-    """Return (f, u) of each wrench of the program on {V ≤ c}, commanded and then acting, and ż (3)."""
+class Answer(NamedTuple):
+    """What the program answers: (f, u) of each wrench, commanded and then acting, ż (3) and y·z."""
+
+    wrenches: list[list[Model]]
+    axis_rate: list[Model]
+    cosine: Model
+
+
+def split(found: list[Model]) -> Answer:
+    """Return the outputs of the program by what they are."""
+    return Answer([found[i : i + 4] for i in range(0, len(found) - 4, 4)], found[-4:-1], found[-1])
+
+
+def evaluate_program(certificate: Any, c: float) -> Answer:
+    """Return what the program answers on {V ≤ c}."""
     numbers = certificate["numbers"]
     sizes = np.diag(radii(numbers, c))
 
@@ -336,9 +372,9 @@ def evaluate_wrenches(certificate: Any, c: float) -> tuple[list[list[Model]], li
         found = evaluate(certificate["operations"], given, certificate["outputs"])
     except OverflowError:
         raise NotProvedError("the bounds are too large for a number") from None
-    if len(found) != (11 if "rotor_lag" in numbers else 7):
+    if len(found) != (12 if "rotor_lag" in numbers else 8):
         raise NotProvedError("the program has not the outputs of a law")
-    return [found[i : i + 4] for i in range(0, len(found) - 3, 4)], found[-3:]
+    return split(found)
 
 
 def _norm(sizes: Sequence[float]) -> float:
@@ -387,13 +423,13 @@ def _spins(certificate: Any, c: float, w: float, wrenches: Any, turn: float) -> 
     return [(across, along, growing), (w * turn, drift, gyroscopic)]
 
 
-def force_ranges(certificate: Any, c: float, w: float) -> list[tuple[float, float]]:
+def ranges_of(certificate: Any, c: float, w: float, answer: Answer) -> list[tuple[float, float]]:
     """Return bounds on each rotor's force, N, over {V ≤ c, |ω₃| ≤ w} at every heading; first on those commanded.
 
     With h_i = (I U_i)₁₂ and U_i the row of the rotor, its force is U_i0 f + |h_i| k·u + spin, k a unit vector.
     """
-    wrenches, z_dot = evaluate_wrenches(certificate, c)
-    spins = _spins(certificate, c, w, wrenches, _norm([_far(model) for model in z_dot]))
+    wrenches = answer.wrenches
+    spins = _spins(certificate, c, w, wrenches, _norm([_far(model) for model in answer.axis_rate]))
     unmixing, I = np.array(certificate["unmixing"]), np.array(certificate["inertia"])
     shares, arms = np.abs(unmixing), _above(unmixing[:, 1:], I.T)
     out = []
@@ -422,7 +458,8 @@ def check(certificate: Any) -> str:
     if not (c > 0 and w >= 0):
         return "c must be positive, and w not negative"
     try:
-        return outside(certificate, force_ranges(certificate, c, w))
+        answer = evaluate_program(certificate, c)
+        return outside(certificate, ranges_of(certificate, c, w, answer)) or touching(certificate, lean(answer))
     except NotProvedError as reason:
         return str(reason)
 
@@ -434,6 +471,34 @@ def outside(certificate: Any, ranges: list[tuple[float, float]]) -> str:
         if not (least >= low and most <= high):
             verb = "be asked for" if i < rotors else "give"
             return f"rotor {i % rotors} may {verb} {least:.4g} to {most:.4g} N, outside {low:g} to {high:g} N"
+    return ""
+
+
+def lean(answer: Answer) -> float:
+    """Bound on the angle between rod and thrust axis, rad; π if there is none."""
+    P, error = answer.cosine
+    least = P.a - (P.spread + error + ROUND) * UP
+    return 2 * math.asin(math.sqrt((1 - least) / 2)) * UP if least > -1 else math.pi
+
+
+def touching(certificate: Any, theta: float) -> str:
+    """Return what the rod may touch, in one line; empty if it is known to touch nothing, or there is no body.
+
+    θ, rad, bounds the angle between rod and axis. A point at the distance r from the axis and the height h is at least
+    r cos θ − |h| sin θ from the line along the rod, if that is positive: the angle between the two is at least
+    π/2 − θ − arctan(|h|/r). An arm begins at the rim of the hub like the rod, and the distance there is the least.
+    """
+    body = certificate["body"]
+    if body is None:
+        return ""
+    for i, (x, y, height) in enumerate(body["rotors"]):
+        from_axis, height = math.hypot(x, y), abs(height)
+        disc = (from_axis - body["disc_radius"]) * math.cos(theta) - height * math.sin(theta) - body["rod_radius"]
+        between = math.pi / 2 - theta - math.atan2(height, from_axis)
+        arm = 2 * body["hub_radius"] * math.sin(between / 2) - body["arm_radius"] - body["rod_radius"]
+        for part, gap in (("disc", disc), ("arm", arm)):
+            if not (theta < math.pi / 2 and gap > GAP):
+                return f"the rod may touch {part} {i + 1}: it leans by up to {math.degrees(theta):.3g} degrees"
     return ""
 
 

@@ -18,11 +18,21 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
-from flypend.geometry import E3, Numbers, Scalar, apply, cross
+from flypend.geometry import E3, Numbers, Scalar, apply, cross, dot
 from flypend.laws.almost_global_bounds import stands
 from flypend.laws.almost_global_gains import COMPUTER
 from flypend.laws.bound import BoundLaw
-from flypend.laws.certificate import NotProvedError, force_ranges, outside
+from flypend.laws.certificate import (
+    NotProvedError,
+    Polynomial,
+    evaluate_program,
+    lean,
+    outside,
+    radii,
+    ranges_of,
+    split,
+    touching,
+)
 from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.laws.closed_loop import COMMANDS, WRENCH, symbolic_loop, wrench_in
 from flypend.laws.guarantee import list_unmodelled
@@ -33,9 +43,10 @@ from flypend.model.state import SIZE as PACKED
 BODY = ("M", "m", "l", "g")
 # The yaw rate takes this share of the room between hover and the limits, and is at most 1 rad/s.
 YAW_SHARE, MOST_YAW = 0.05, 1.0
-# The search for c: where it begins, m²/s², and ends in vain; the share of the room it aims at; ratio of what is not
-# proved to what is.
-GUESS, LEAST, AIM, CLOSE = 3e-2, 1e-9, 0.97, 1.05
+# The search for c begins at SOME l g, which most vehicles come near, or where the linear part of the forces uses LINEAR
+# of the room; it ends in vain below LEAST l g. It aims at the share AIM, which is taken to grow like the power STEEP of
+# c until two are known. CLOSE is the ratio of what is not proved to what is; APART that of two points of a secant.
+SOME, LINEAR, LEAST, AIM, STEEP, CLOSE, APART = 9e-3, 0.785, 1e-9, 0.97, 4.5, 1.05, 1.03
 # Points of the chart, |ξ_i| < REACH, at which a program is compared with ours and with the law; largest relative
 # differences. The first is some hundred roundoffs; the second leaves room for moments that cancel.
 POINTS, REACH, SAME, SAME_LAW = 20, 0.5, 1e-12, 1e-9
@@ -48,7 +59,7 @@ class CertifiedSet:
     It is {V ≤ c, |ω₃| ≤ w}, at every heading. The law is `almost_global` about a reference at rest, without lag; every
     flight that begins in the set converges, limits or not (Theorem C, docs/laws/theorem-proof.md). For
     `almost_global_lag` it is a set of states and rotor forces: V is V', |η_α3| ≤ k_yaw w, and every rotor gives a
-    force within its limits, too.
+    force within its limits, too. On a hub the rod touches nothing in the set.
 
     Parameters
     ----------
@@ -139,45 +150,63 @@ def ratios(
 def certified_set(law: BoundLaw) -> CertifiedSet:
     """Return the largest set that is proved for `law`, within 5 % of c.
 
-    Takes seconds, and half a minute through a lag. Raises InputError if the theorem does not cover the law's vehicle
+    Takes seconds, and through a lag some ten. Raises InputError if the theorem does not cover the law's vehicle
     or reference, or nothing can be proved.
     """
-    missing = list_unmodelled(law.vehicle)
+    missing = list_unmodelled(law.vehicle, on_hub=True)
     if missing:
         raise InputError("law.vehicle", "one that the theorem models", missing)
     if law.reference is None or not stands(law.reference):
         raise InputError("law.reference", "one at rest", "one that moves")
     found = statement(law)
-    proved, refused, c, before = 0.0, math.inf, GUESS, None
-    while c >= LEAST and CLOSE * proved < refused:
+    least = LEAST * law.vehicle.l * law.vehicle.g
+    proved, refused, c, before = 0.0, math.inf, _guess(found, SOME / LEAST * least), None
+    while c >= least and CLOSE * proved < refused:
         share = _share(found, c)
         proved, refused = (max(proved, c), refused) if share <= 1 else (proved, min(refused, c))
         if not share < math.inf:
             c = math.sqrt(proved * c) if proved else c / 4
             continue
-        # The share grows like a power of c: a secant in logarithms, towards AIM.
-        slope = 3.0 if before is None else math.log(share / before[1]) / math.log(c / before[0])
-        before = c, share
-        following = c * min(4.0, max(0.25, (AIM / share) ** (1 / max(slope, 1.0))))
-        if share <= 1 and following <= CLOSE * c:
+        # A secant in logarithms.
+        slope = max(0.5, math.log(share / before[1]) / math.log(c / before[0])) if before else STEEP
+        following = c * min(4.0, max(0.25, (AIM / share) ** (1 / slope)))
+        if share <= 1 and not before:
+            following = max(following, APART * c)
+        if share <= 1 and before and following <= CLOSE * c:
             break
-        c = following if proved < following < refused else math.sqrt(proved * refused)
+        before = c, share
+        c = following if proved < following < refused else min(CLOSE * proved, math.sqrt(proved * refused))
     if not proved:
-        raise InputError("law", "gains for which some c can be proved", f"none down to c = {LEAST:g}")
+        raise InputError("law", "gains for which some c can be proved", f"none down to c = {least:g} m²/s²")
     found["c"] = proved
     return CertifiedSet(proved, found["w"], _extent(law, proved, found["w"]), law, found)
 
 
+def _guess(found: dict[str, Any], most: float) -> float:
+    """Return a c, at most `most`, at which the linear part of the forces uses `LINEAR` of the room at ω₃ = 0."""
+    tiny, numbers = 1e-6 * most, found["numbers"]
+    chart, k = chart_function(tuple(numbers)), list(numbers.values())
+    ends = np.diag(radii(numbers, tiny))  # so near that differences are the linear part
+    forth, back = (np.array([np.array(chart(xi, k)[0]).ravel() for xi in side]) for side in (ends, -ends))
+    middle, slopes = (forth + back)[0] / 2, (forth - back).T / 2
+    models = [(Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
+    share = _largest(found, ranges_of(found, tiny, 0.0, split(models)))
+    return min(most, tiny * (LINEAR / share) ** 2)
+
+
 def _share(found: dict[str, Any], c: float) -> float:
     """Return the largest share of the room between hover and a limit that a rotor's force may use; ∞ if unbounded."""
-    low, high = found["limits"]
     try:
-        ranges = force_ranges(found, c, found["w"])
+        answer = evaluate_program(found, c)
     except NotProvedError:
         return math.inf
-    if outside(found, ranges):
-        return max(1.0 + 1e-9, *(_used(*forces, low, high) for forces in ranges))
-    return max(_used(*forces, low, high) for forces in ranges)
+    ranges = ranges_of(found, c, found["w"], answer)
+    share = _largest(found, ranges)
+    return max(1.0 + 1e-9, share) if outside(found, ranges) or touching(found, lean(answer)) else share
+
+
+def _largest(found: dict[str, Any], ranges: list[tuple[float, float]]) -> float:
+    return max(_used(*forces, *found["limits"]) for forces in ranges)
 
 
 def _used(least: float, most: float, low: float, high: float) -> float:
@@ -203,13 +232,21 @@ def statement(law: BoundLaw) -> dict[str, Any]:
         "format": "flypend certificate 1", "law": law.name, "vehicle": vehicle.name, "numbers": numbers,
         "parameters": list(numbers), "inertia": np.array(vehicle.I).tolist(), "unmixing": unmixing.tolist(),
         "limits": limits, "w": min(MOST_YAW, YAW_SHARE * room / costs) if costs else MOST_YAW,
-        "operations": operations, "outputs": outputs,
+        "operations": operations, "outputs": outputs, "body": _solid(vehicle),
     }  # fmt: skip
+
+
+def _solid(vehicle: Vehicle) -> dict[str, Any] | None:
+    """Return what the rod must not touch, m: rotors (n, 3) from the pivot, and radii. None if it may pass anywhere."""
+    if vehicle.mount != "hub":
+        return None
+    radii = {name: getattr(vehicle.body, name) for name in ("disc_radius", "arm_radius", "hub_radius", "rod_radius")}
+    return {"rotors": vehicle.rotors_from_pivot.tolist(), **radii}
 
 
 @lru_cache(maxsize=8)
 def chart_function(names: tuple[str, ...]) -> ca.Function:
-    """Return (ξ, numbers) → f and u of each wrench and ż, and p − p_ref, v, y, ẏ and z (15,), of the law in the chart.
+    """Return (ξ, numbers) → f and u of each wrench, ż, y·z, and p − p_ref, v, y, ẏ, z (15,) of the law in the chart.
 
     The law is the one through a lag if "rotor_lag" is among the `names` of the numbers.
     """
@@ -220,27 +257,43 @@ def chart_function(names: tuple[str, ...]) -> ca.Function:
     found = law_at(xi, k, k.M, k.m, k.l, k.g, lag)
     return ca.Function(
         "chart", [xi, values],
-        [ca.densify(ca.vertcat(*found.wrenches, found.axis_rate)), ca.densify(ca.vertcat(*found[2:]))], {"cse": True},
+        [
+            ca.densify(ca.vertcat(*found.wrenches, found.axis_rate, dot(found.rod, found.axis))),
+            ca.densify(ca.vertcat(*found[2:])),
+        ],
+        {"cse": True},
     )  # fmt: skip
 
 
 _NAMES = {
-    ca.OP_ADD: "add", ca.OP_SUB: "sub", ca.OP_MUL: "mul", ca.OP_DIV: "div", ca.OP_NEG: "neg", ca.OP_SQRT: "sqrt",
+    ca.OP_ADD: "add", ca.OP_SUB: "sub", ca.OP_MUL: "mul", ca.OP_NEG: "neg", ca.OP_SQRT: "sqrt", ca.OP_SQ: "mul",
+    ca.OP_TWICE: "add", ca.OP_INPUT: "input",
 }  # fmt: skip
+
+
+class _Operations:
+    """Operations (name, places of arguments, constant), each once, with their places."""
+
+    def __init__(self) -> None:
+        self.places: dict[tuple[str, tuple[int, ...], float], int] = {}
+
+    def put(self, name: str, arguments: list[int], value: float = 0.0) -> int:
+        """Return the place of an operation."""
+        if name in ("add", "mul"):
+            arguments = sorted(arguments)
+        return self.places.setdefault((name, tuple(arguments), value), len(self.places))
+
+    def divide(self, above: list[int], below: int) -> int:
+        """Return the place of a quotient, of 1 if nothing is `above`: many share a denominator."""
+        inverse = self.put("div", [self.put("constant", [], 1.0), below])
+        return self.put("mul", [*above, inverse]) if above else inverse
 
 
 @lru_cache(maxsize=8)
 def _program(names: tuple[str, ...]) -> tuple[list[Any], list[int]]:
-    """Return the wrenches of the chart as operations [name, places of arguments, constant], and the places of ż too."""
+    """Return the wrenches, ż and y·z of the chart as operations [name, places, constant], and the places of these."""
     function = chart_function(names).slice("law", [0, 1], [0]).expand()
-    operations: list[Any] = []
-    work: dict[int, int] = {}
-    outputs = [0] * function.nnz_out(0)
-
-    def put(name: str, places: list[int], value: float = 0.0) -> int:
-        operations.append([name, places, value])
-        return len(operations) - 1
-
+    made, work, outputs = _Operations(), dict[int, int](), [0] * function.nnz_out(0)
     for i in range(function.n_instructions()):
         code, taken, given = (
             function.instruction_id(i), function.instruction_input(i), function.instruction_output(i)
@@ -249,17 +302,14 @@ def _program(names: tuple[str, ...]) -> tuple[list[Any], list[int]]:
             if given[0] == 0:
                 outputs[given[1]] = work[taken[0]]
             continue
+        arguments = list(taken) if code == ca.OP_INPUT else [work[slot] for slot in taken]
         if code == ca.OP_CONST:
-            work[given[0]] = put("constant", [], float(function.instruction_constant(i)))
-        elif code == ca.OP_INPUT:
-            work[given[0]] = put("input", list(taken))
-        elif code in (ca.OP_SQ, ca.OP_TWICE):
-            work[given[0]] = put("mul" if code == ca.OP_SQ else "add", [work[taken[0]]] * 2)
-        elif code == ca.OP_INV:
-            work[given[0]] = put("div", [put("constant", [], 1.0), work[taken[0]]])
+            work[given[0]] = made.put("constant", [], float(function.instruction_constant(i)))
+        elif code in (ca.OP_INV, ca.OP_DIV):
+            work[given[0]] = made.divide(arguments[:-1], arguments[-1])
         else:
-            work[given[0]] = put(_NAMES[code], [work[slot] for slot in taken])
-    return operations, outputs
+            work[given[0]] = made.put(_NAMES[code], arguments * (2 if code in (ca.OP_SQ, ca.OP_TWICE) else 1))
+    return [[name, list(places), value] for name, places, value in made.places], outputs
 
 
 def differs(certificate: dict[str, Any], law: BoundLaw) -> str:
@@ -269,7 +319,7 @@ def differs(certificate: dict[str, Any], law: BoundLaw) -> str:
     states of the chart.
     """
     own = statement(law)
-    for key in ("law", "vehicle", "numbers", "inertia", "unmixing", "limits"):
+    for key in ("law", "vehicle", "numbers", "inertia", "unmixing", "limits", "body"):
         if certificate[key] != own[key]:
             return f"its {key} is not that of the law"
     program, numbers = chart_function(tuple(own["numbers"])), list(own["numbers"].values())
@@ -282,7 +332,7 @@ def differs(certificate: dict[str, Any], law: BoundLaw) -> str:
         asked = _run(certificate, xi, numbers)
         fresh, place = (np.array(part).ravel() for part in program(xi, numbers))
         worst = max(worst, float(np.max(np.abs(asked - fresh)) / np.max(np.abs(fresh))))
-        state = _state(place, asked[-3:], law)
+        state = _state(place, asked[-4:-1], law)
         command_here, *acting = _wrenches(asked, state, law)
         found = np.array(wrench(np.concatenate([state.packed(), *acting]))).ravel()
         scale = np.linalg.norm(command_here[1:]) + 1e-6 * law.vehicle.weight * law.vehicle.l

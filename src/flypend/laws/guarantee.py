@@ -49,13 +49,14 @@ class Guarantee:
     assumes: tuple[str, ...] = ()
 
 
-def list_unmodelled(vehicle: Vehicle) -> str:
+def list_unmodelled(vehicle: Vehicle, *, on_hub: bool = False) -> str:
     """Return what `vehicle` has that the theorems' equations lack, in words; empty for a vehicle that they model.
 
-    They know a free ball joint at the centre of mass, a rod that touches nothing and does not spin, and no air.
+    They know a free ball joint at the centre of mass, a rod that touches nothing and does not spin, and no air. With
+    `on_hub` a hub is allowed, for whoever proves that the rod touches nothing.
     """
     has = {
-        f"a {vehicle.mount}, which the rod must not touch": vehicle.mount != "gimbal",
+        f"a {vehicle.mount}, which the rod must not touch": vehicle.mount not in ("gimbal", "hub" if on_hub else ""),
         "a pivot off the centre of mass": bool(np.any(vehicle.pivot_offset)),
         "friction in the joint": bool(vehicle.pivot_damping or vehicle.pivot_friction),
         "a rod that spins": bool(vehicle.rod_spin and vehicle.rod_spin_inertia),

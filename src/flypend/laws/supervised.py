@@ -80,7 +80,7 @@ def supervised(
         first commands with a `lead`, another gain: see `laws.lag.lead_wrench`.
     **gains : float
         Any of the gains below, in the stated unit. Their defaults are the `certified_set` of the second law on the
-        vehicle, which takes seconds, and through a lag half a minute.
+        vehicle, which takes seconds, and through a lag some ten.
 
     {gains}
 

@@ -19,6 +19,7 @@ from flypend import errors
 from flypend.files import whole
 from flypend.flight.criterion import Criterion
 from flypend.flight.ensemble import simulate_ensemble
+from flypend.flight.tasks import free_starts, random_hanging
 from flypend.geometry import Numbers
 from flypend.laws import BoundLaw, almost_global, almost_global_lag, inverted
 from flypend.laws.certified import CertifiedSet
@@ -29,6 +30,7 @@ from flypend.studies.starts import check_starts
 
 CONFIDENCE = 0.95
 CHUNK = 20_000  # flights at a time: 70 MB of states
+DRAWS: dict[str, Callable[[np.random.Generator, int], State]] = {"random": State.random, "hanging": random_hanging}
 TICK = 0.5  # s, how often a flight is asked whether it is in the set
 # A flight counts as inside if it still is after SAFETY times what a looser tolerance changes. Those that are not are
 # flown again, longer and at tighter ones: until (s), tolerance, tighter tolerance.
@@ -44,12 +46,16 @@ class MeasuredBasin:
     ----------
     vehicle, law : str
         Names of the vehicle and of the law that flies until the set is entered.
+    mount : str
+        The vehicle's.
     lag : bool
         Whether rotors lag.
+    starts : str
+        "random" or "hanging".
     c, yaw_rate : float
         The certified set, m²/s² and rad/s.
     runs, seed : int
-        Starts, drawn like `random_starts`, and their seed.
+        Starts, and their seed.
     entered : int
         Flights that enter.
     again : int
@@ -62,7 +68,9 @@ class MeasuredBasin:
 
     vehicle: str
     law: str
+    mount: str
     lag: bool
+    starts: str
     c: float
     yaw_rate: float
     runs: int
@@ -84,6 +92,7 @@ def measure_basin(
     seed: int,
     *,
     lag: bool = False,
+    starts: str = "random",
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> MeasuredBasin:
     """Fly `runs` random starts within the rotor limits of `vehicle` until they are in the certified set.
@@ -91,18 +100,21 @@ def measure_basin(
     Parameters
     ----------
     vehicle : Vehicle
-        One that Theorem B models.
+        One that Theorem B models, on a gimbal or a hub.
     runs, seed : int
         Number of starts, and their seed.
     lag : bool
         Whether rotors lag, by the vehicle's `rotor_lag`. They begin at their minimum.
+    starts : "random" or "hanging"
+        Drawn like `random_starts`; or level at rest at any heading, with the rod within 10° of straight down, uniform
+        on that cap of the sphere. On a hub, those of them whose rod touches nothing.
     progress : callable
         Called with (task, done, total).
 
     Raises
     ------
     InputError
-        If runs or seed are invalid, the theorem does not cover the vehicle, or the extra "studies"
+        If runs, seed or starts are invalid, the theorem does not cover the vehicle, or the extra "studies"
         is missing.
     """
     errors.require("scipy", extra="studies", for_="basin")
@@ -110,6 +122,7 @@ def measure_basin(
 
     check_starts(runs, seed)
     errors.check_kind("lag", lag, bool)
+    draw = DRAWS[errors.one_of("starts", starts, DRAWS)]
     law = (leading(inverted()) if lag else inverted()).bind(vehicle)
     progress("proving the certified set", 0, 1)
     certified = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
@@ -117,12 +130,12 @@ def measure_basin(
     for begin in range(0, runs, CHUNK):
         progress("flying", begin, runs)
         rng = np.random.default_rng((seed, begin // CHUNK))
-        starts = State.random(rng, CHUNK)[: runs - begin]
-        found = _entering(law, certified, starts, *PASSES[0])
+        batch = free_starts(vehicle, draw, rng, CHUNK)[: runs - begin]
+        found = _entering(law, certified, batch, *PASSES[0])
         left = np.flatnonzero(np.isnan(found))
         if len(left):
             again += len(left)
-            found[left] = _entering(law, certified, starts[left], *PASSES[1])
+            found[left] = _entering(law, certified, batch[left], *PASSES[1])
         times.append(found)
     progress("flying", runs, runs)
     entering = np.concatenate(times)
@@ -130,8 +143,9 @@ def measure_basin(
     least = float(beta.ppf(1 - CONFIDENCE, entered, runs - entered + 1)) if entered else 0.0
     slowest = float(np.nanmax(entering)) if entered else None
     return MeasuredBasin(
-        vehicle.name, law.name, lag, certified.c, certified.yaw_rate, runs, seed, entered, again, slowest, least
-    )
+        vehicle.name, law.name, vehicle.mount, lag, starts, certified.c, certified.yaw_rate, runs, seed, entered, again,
+        slowest, least,
+    )  # fmt: skip
 
 
 def _entering(

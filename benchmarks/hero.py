@@ -32,7 +32,7 @@ SAID = 0.7  # s for which a poke is named
 STYLE = """.scene { position: fixed !important; inset: 0; margin: 0 !important; border-radius: 0 !important; }
 .handle, .low, .compass, .busy, .recovered, .scene > .invite { display: none !important; }
 .motion span { display: none; } .motion b { font-size: 26px !important; }
-.poke-word { position: fixed; z-index: 10; font: 600 22px system-ui, sans-serif; color: var(--alarm); }"""
+.poke-word { position: fixed; z-index: 10; font: 600 22px system-ui, sans-serif; color: var(--rod); }"""
 SAY = """([word, on]) => {
   const said = document.querySelector(".poke-word") ?? document.querySelector(".scene").appendChild(
     Object.assign(document.createElement("p"), { className: "poke-word" }));

@@ -20,6 +20,7 @@ from PIL import Image, ImageColor
 from playwright.sync_api import sync_playwright
 
 import flypend as fp
+from benchmarks.frames import AT_REST
 from benchmarks.lab import OPTIONS, SHOWN
 from flypend.model.table import vehicle_names
 from flypend.palette import CAUSES
@@ -116,6 +117,7 @@ def lab(browser):
         page = browser.new_page(viewport=SIZE)
         page.goto(next(word for word in server.stdout.readline().split() if word.startswith("http")))
         page.wait_for_function(SHOWN)
+        page.evaluate(AT_REST)  # with the panel
         page.evaluate("flypend.seek(4)")
         page.wait_for_timeout(SETTLE)
         page.locator("[data-on=bob]").click()

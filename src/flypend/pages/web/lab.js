@@ -259,6 +259,7 @@ main:not(.running) .has-place { display: none; }
   .five > * { flex: 1 1 auto; min-height: 3.14286rem; }
   .story:has([aria-pressed="true"]) > * { order: -1; } /* what is told comes before what can be done */
   .story .chips { flex-wrap: nowrap; gap: 0; justify-content: space-between; width: 100%; }
+  .step h3 { flex: 1 1 100%; }
   .lab header { gap: 0.57143rem 1.14286rem; }
   .lab h1 { flex: 1 1 100%; }
   .verdict { flex: 1 1 100%; }

@@ -21,7 +21,7 @@ TARGET = Path(__file__).parents[1] / "docs" / "img" / "hero.webp"
 SIZE = {"width": 720, "height": 405}
 RATE = 20  # pictures a second
 QUALITY = 70  # of WebP, up to 100
-NEARER = -360  # by the wheel, from the overview: pictures from a camera that follows take three times the bytes
+NEARER = -390  # by the wheel, from the overview: pictures from a camera that follows take three times the bytes
 SPEEDS = ((0.85, 1.0), (1.65, 0.35), (7.6, 1.0))  # until this time of flight, s, it plays at this speed
 POKES = (
     {"time": 3.0, "on": "bob", "velocity": [1.1, 0.4, 0.0]},
@@ -30,9 +30,9 @@ POKES = (
 SAID = 0.7  # s for which a poke is named
 # The scene alone, as large as the window.
 STYLE = """.scene { position: fixed !important; inset: 0; margin: 0 !important; border-radius: 0 !important; }
-.handle, .key, .compass, .busy { display: none !important; }
+.handle, .low, .compass, .busy, .recovered, .scene > .invite { display: none !important; }
 .motion span { display: none; } .motion b { font-size: 26px !important; }
-.poke-word { position: fixed; z-index: 10; font: 600 22px system-ui, sans-serif; color: var(--alarm); }"""
+.poke-word { position: fixed; z-index: 10; font: 600 22px system-ui, sans-serif; color: var(--rod); }"""
 SAY = """([word, on]) => {
   const said = document.querySelector(".poke-word") ?? document.querySelector(".scene").appendChild(
     Object.assign(document.createElement("p"), { className: "poke-word" }));
@@ -52,13 +52,12 @@ def times():
     return out
 
 
-def pictures(page):
-    """Take a picture of the scene of `page` at each of `times`."""
-    for t in times():
-        page.evaluate("t => flypend.seek(t)", t)
-        poke = next((poke for poke in POKES if poke["time"] <= t < poke["time"] + SAID), None)
-        page.evaluate(SAY, ["poked" if poke else "", poke["on"] if poke else "bob"])
-        yield Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+def picture(page, t):
+    """The scene of `page` at the time `t`."""
+    page.evaluate("t => flypend.seek(t)", t)
+    poke = next((poke for poke in POKES if poke["time"] <= t < poke["time"] + SAID), None)
+    page.evaluate(SAY, ["poked" if poke else "", poke["on"] if poke else "bob"])
+    return Image.open(io.BytesIO(page.screenshot())).convert("RGB")
 
 
 def flown(browser, folder):
@@ -86,7 +85,7 @@ def main():
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=OPTIONS)
         page = flown(browser, folder)
         page.wait_for_timeout(500)
-        frames = list(pictures(page))
+        frames = [picture(page, t) for t in times()]
     settings = {"duration": 1000 // RATE, "loop": 0, "quality": QUALITY, "method": 4}
     frames[0].save(TARGET, save_all=True, append_images=frames[1:], **settings)
     print(f"{TARGET.name}: {len(frames)} pictures in {len(frames) / RATE:.1f} s, {TARGET.stat().st_size / 1e6:.2f} MB")

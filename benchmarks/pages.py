@@ -20,6 +20,7 @@ from PIL import Image, ImageColor
 from playwright.sync_api import sync_playwright
 
 import flypend as fp
+from benchmarks.frames import AT_REST
 from benchmarks.lab import OPTIONS, SHOWN
 from flypend.model.table import vehicle_names
 from flypend.palette import CAUSES
@@ -111,20 +112,20 @@ def stills():
 def lab(browser):
     """The laboratory, half a second after a poke."""
     command = [sys.executable, "-m", "flypend", "lab", "--no-browser"]
-    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    try:
-        page = browser.new_page(viewport=SIZE)
-        page.goto(next(word for word in server.stdout.readline().split() if word.startswith("http")))
-        page.wait_for_function(SHOWN)
-        page.evaluate("flypend.seek(4)")
-        page.wait_for_timeout(SETTLE)
-        page.locator("[data-on=bob]").click()
-        page.wait_for_function(SHOWN)
-        page.evaluate("flypend.pause(), flypend.seek(4.5)")
-        shoot(page, "lab.png")
-    finally:
-        server.kill()
-        server.wait()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            page = browser.new_page(viewport=SIZE)
+            page.goto(next(word for word in server.stdout.readline().split() if word.startswith("http")))
+            page.wait_for_function(SHOWN)
+            page.evaluate(AT_REST)  # with the panel
+            page.evaluate("flypend.seek(4)")
+            page.wait_for_timeout(SETTLE)
+            page.locator("[data-on=bob]").click()
+            page.wait_for_function(SHOWN)
+            page.evaluate("flypend.pause(), flypend.seek(4.5)")
+            shoot(page, "lab.png")
+        finally:
+            server.kill()
 
 
 DRAWINGS = {

@@ -186,7 +186,8 @@ def test_nothing_is_drawn_again_while_a_replay_plays_or_rests(visit, up):
 
 
 @pytest.mark.parametrize(
-    ("viewport", "live", "open_"), [(NARROW, False, True), (NARROW, True, False), (WIDE, True, True)]
+    ("viewport", "live", "open_"),
+    [(NARROW, False, False), (NARROW, True, False), (WIDE, False, True), (WIDE, True, True)],
 )
 def test_it_is_seen_where_there_is_room_and_put_away_by_key_and_button(visit, up, viewport, live, open_):
     page = visit(up, live=live, setting={"viewport": viewport})

@@ -692,7 +692,7 @@ def test_other_runs_can_be_put_into_the_page(visit, up, lqr, down):
 def test_it_fits_a_narrow_screen_and_answers_fingers(visit, up, lqr):
     page = visit(up, ghost=lqr, setting={"viewport": NARROW, "has_touch": True, "device_scale_factor": 2})
     assert page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
-    for control in page.locator("button, select, input, .picture, .plot").all():
+    for control in page.locator(":is(button, select, input, .picture, .plot):visible").all():
         box = control.bounding_box()
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= NARROW["width"]

@@ -79,6 +79,23 @@ def test_the_pole_tells_the_height_of_the_machine(visit):
     assert zero["y"] > marks["0.5 m"]["y"]
 
 
+def test_heights_are_told_apart_and_not_over_the_sphere_of_directions(visit):
+    """After a fall of over 100 m, where three digits were not enough."""
+    law, machine = fp.laws.corrected(), fp.vehicle("nayak2018")
+    page = visit(fp.simulate(machine, law, fp.State(y=(0.1, 0, np.sqrt(0.99))).in_frame(law.e3), 6.5, plant="ideal"))
+    page.evaluate("flypend.pause(), flypend.seek(6.5)")
+    page.wait_for_timeout(300)
+    told = [mark.inner_text() for mark in page.locator(".height:visible").all()]
+    assert len(told) >= 3
+    assert len(set(told)) == len(told)
+    assert all(float(word.split()[0].replace("−", "-")) < -100 for word in told)
+    page.keyboard.press("s")
+    until(page, f"() => document.querySelectorAll('.height:not([hidden])').length < {len(told)}")
+    globe = page.locator(".globe").bounding_box()
+    for mark in (mark.bounding_box() for mark in page.locator(".height:visible").all()):
+        assert mark["x"] > globe["x"] + globe["width"] or mark["y"] + mark["height"] / 2 < globe["y"] + 1
+
+
 def test_a_hub_looks_different_from_a_gimbal(visit):
     hub, gimbal = (picture(visit(hovering(mount))) for mount in ("hub", "gimbal"))
     assert np.mean(np.any(np.abs(hub - gimbal) > 30, axis=-1)) > 0.005

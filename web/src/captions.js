@@ -24,7 +24,10 @@ export class Captions {
     this.grid = key.querySelector(".grid");
     this.barred = key.firstChild;
     this.near = Object.assign(document.createElement("p"), { className: "near", hidden: true });
+    this.room = this.near.appendChild(document.createElement("span"));
     parent.append(this.near);
+    this.globe = low.querySelector(".globe");
+    new ResizeObserver(() => this.#measure()).observe(low);
   }
 
   /** For other `flights`. */
@@ -59,7 +62,7 @@ export class Captions {
       write(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     if (this.barred.hidden === stage.barred.visible) this.barred.hidden = !stage.barred.visible;
-    this.#heights(stage.marks());
+    this.#heights(stage.marks(), stage.height);
     this.#near(stage.near);
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
     write(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
@@ -72,11 +75,21 @@ export class Captions {
     const { left, top, side, clearance } = picture;
     place({ root: this.near, box: this.framed }, { left, top, width: side, height: side });
     this.framed = [left, top, side, side].join();
-    write(this.near, room(clearance));
+    write(this.room, room(clearance));
   }
 
-  /** Write the heights at the marks of the pole. */
-  #heights(marks) {
+  /** How far the sphere of directions reaches from the left and from below, over which no height is written. */
+  #measure() {
+    const { left, bottom } = this.parent.getBoundingClientRect(), globe = this.globe?.getBoundingClientRect();
+    this.taken = globe?.width ? { right: globe.right - left, up: bottom - globe.top } : { right: 0, up: 0 };
+    if (this.pole) this.#heights(...this.pole); // also while nothing moves
+  }
+
+  /** Write the heights at the `marks` of the pole in a picture that is `bottom` pixels high. */
+  #heights(marks, bottom) {
+    this.pole = [marks, bottom];
+    const { right, up } = this.taken ?? { right: 0, up: 0 };
+    marks = marks.filter(({ at: [across, down] }) => across > right || down < bottom - up);
     while (this.marks.length < marks.length) {
       const mark = document.createElement("span");
       mark.className = "height";
@@ -87,7 +100,7 @@ export class Captions {
       if (mark.hidden !== i >= marks.length) mark.hidden = i >= marks.length;
       if (mark.hidden) return;
       const { height, at: [left, top] } = marks[i];
-      write(mark, `${+height.toPrecision(3)} m`.replace("-", "−"));
+      write(mark, `${+height.toFixed(2)} m`.replace("-", "−"));
       move(mark, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`);
     });
   }

@@ -7,13 +7,13 @@ import { large, power, reading, scientific, tick } from "./words.js";
 
 const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins; all sizes are pixels of a usual screen, see drawing.js
 const APART = 92; // pixels between two marks of a curve
+const HALF = 9; // pixels from the middle of a word up and down, within which it hides a curve
 const FAINT = 1e-8; // of the largest value: a logarithmic axis goes no further down
 const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut off at four times that
 
 /**
  * One plot. `options`: title (of this program, may hold tags; `plain` without), unit, `lines` ([{label, role, mark, dash,
- * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]
- * at the right edge), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
+ * width, t, values}], a role being a key of the theme), and optionally `range` ([low, high]), `names` ([[value, word], ...]), `levels` ([[value, word]]: dotted lines), `limits` ([low, high], null for none: shaded beyond),
  * `scale` (the usual size of a value), `least` (the shortest axis), `touches` (times of collisions), `phases` ([{ from, to, name }]:
  * words along the time), `end` (time that all share), `log` (a logarithmic axis), `wide` (many curves: it gets more room). `seek` is called with a time when the plot is touched.
  */
@@ -173,33 +173,46 @@ export class Plot {
     for (const t of this.touches) line(place.x(t), TOP, place.x(t), height - BOTTOM, colours.failed, [4, 2]);
   }
 
-  /** Words at the right edge, over the curves and with a rim that keeps them legible. */
+  /** Words where they hide least of the curves, rather at the right edge, with a rim that keeps them legible. */
   #words(context, place, colours) {
-    const { width, height, span: [low, high] } = this;
-    Object.assign(context, { textAlign: "right", textBaseline: "alphabetic", lineWidth: 4, strokeStyle: colours.paper, fillStyle: colours.muted });
-    const write = (word, y, right = width - RIGHT - 4) => {
+    const { width, height, span: [low, high] } = this, edge = width - RIGHT - 4, middle = (TOP + height - BOTTOM) / 2 + 4;
+    Object.assign(context, { textAlign: "right", textBaseline: "alphabetic", lineWidth: 4, fillStyle: colours.muted });
+    const taken = [], write = (word, y, right, behind = colours.paper) => {
+      taken.push({ y, right, left: right - context.measureText(word).width });
+      context.strokeStyle = behind;
       context.strokeText(word, right, y);
       context.fillText(word, right, y);
     };
-    const middle = (TOP + height - BOTTOM) / 2 + 4;
     for (const { name, left, right, size } of this.#captions(context, place)) write(name, middle, (left + right + size) / 2);
-    const cut = this.peak && `cut off, peak ${large(this.peak)}${this.unit}`;
-    const taken = cut ? [TOP + 10] : [];
-    const free = (y) => y > TOP + 8 && y < height - BOTTOM - 2 && taken.every((other) => Math.abs(other - y) > 13);
-    const label = (word, places, behind = colours.paper) => {
-      const y = places.find(free);
-      if (y === undefined) return;
-      taken.push(y);
-      context.strokeStyle = y === places[0] ? behind : colours.paper;
-      write(word, y);
-      context.strokeStyle = colours.paper;
+    if (this.peak) {
+      const cut = `cut off, peak ${large(this.peak)}${this.unit}`;
+      write(cut, TOP + 10, LEFT + 6 + context.measureText(cut).width);
+    }
+    const label = (word, heights, behind) => {
+      const size = context.measureText(word).width;
+      const free = ({ y, right }) => y > TOP + 8 && y < height - BOTTOM - 2
+        && taken.every((other) => Math.abs(other.y - y) > 12 || other.left > right || other.right < right - size);
+      const spots = [edge, LEFT + 4 + size, (LEFT + edge + size) / 2].flatMap((right) => heights.map((y) => ({ y, right }))).filter(free);
+      const hidden = spots.map((spot) => this.#hidden(place, spot.right - size, spot.right, spot.y - 4));
+      const best = spots[hidden.indexOf(Math.min(...hidden))];
+      if (best) write(word, best.y, best.right, best.y === heights[0] ? behind : colours.paper);
     };
     const [least, most] = this.limits;
     if (most !== null && most < high) label(`Rotor limit ${tick(most)} ${this.unit}`, [place.y(most) - 5, place.y(most) + 14], colours.barred);
     else if (least !== null && least > low) label(`Least rotor force ${tick(least)} ${this.unit}`, [place.y(least) + 14], colours.barred);
     for (const [value, word] of this.levels) label(word, [place.y(value) - 6, place.y(value) + 14]);
-    if (cut) write(cut, TOP + 10, LEFT + 6 + context.measureText(cut).width);
-    for (const [value, word] of this.names) write(word, place.y(value) + (value > (low + high) / 2 ? 15 : -7));
+    for (const [value, word] of this.names) label(word, [place.y(value) + (value > (low + high) / 2 ? 15 : -7)]);
+  }
+
+  /** How much of the curves a word from `left` to `right` at the height `y` would hide. */
+  #hidden(place, left, right, y) {
+    const { lines, start, end, width } = this;
+    let count = 0;
+    for (let k = 0; k <= 8; k++) {
+      const t = mix(start, end, (mix(left, right, k / 8) - LEFT) / (width - LEFT - RIGHT));
+      for (const line of lines) count += t <= line.t[line.t.length - 1] && Math.abs(place.y(valueAt(line, t)) - y) < HALF;
+    }
+    return count;
   }
 
   /** The phases that are wide enough for their names, from `left` to `right`; a name is `size` wide. Pixels. */

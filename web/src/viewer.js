@@ -24,7 +24,7 @@ import { LAYOUTS, Stage } from "./scene/stage.js";
 import { Theme } from "./theme.js";
 
 const STEP = 1 / 30; // s, of the arrow keys
-const LOW = 380; // CSS pixels, the height of a picture below which the phase portrait is put away at first
+const LOW = 380, NARROW = 480; // CSS pixels, height and width of a picture below which the phase portrait is put away at first
 const WORDS = 80; // ms between two changes of the numbers while time runs: faster, nobody reads them
 
 export class Viewer {
@@ -131,7 +131,8 @@ export class Viewer {
     this.cameras.show(this.stage?.rig.preset);
     this.stage?.colour(this.theme.colours);
     this.#size();
-    if (this.parts.scene.clientHeight < LOW) this.portrait.fold(true);
+    const { clientWidth, clientHeight } = this.parts.scene;
+    if (clientHeight < LOW || clientWidth < NARROW) this.portrait.fold(true);
   }
 
   #choices() {

@@ -39,17 +39,15 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
     criterion = criterion or goal(run.e3)
     judged = metrics(run, criterion)
     part = part_of(run.vehicle, run.outcome.reason)
-    distance = f"excursion {_round(judged.excursion)} m"
+    distance = f"excursion {_round(judged.excursion)} m" if run.e3 == "up" else fall(run)
     if run.outcome.status != "completed":
         words = f"{run.outcome.status} {_moment(run.outcome.time)}"
         if part is not None:
             words += f", {run.outcome.reason}"
     elif not judged.success:
         words = f"{MISSED.get(judged.cause, judged.cause)} during the last second, {distance}"
-    elif run.e3 == "up":
-        words = f"{POSE} after {judged.settling:.1f} s, {distance}"
     else:
-        words = f"{HANGS} after {judged.settling:.1f} s, {fall(run)}"
+        words = f"{POSE if run.e3 == 'up' else HANGS} after {judged.settling:.1f} s, {distance}"
     return {
         "words": words,
         "good": bool(judged.success),

@@ -64,6 +64,9 @@ class Kept:
         metavar="X Y Z",
         help="Point that the pivot passes; repeatable, in order.",
     )
+    path: str | None = option(
+        "--path", metavar="FILE.py:FUNCTION", help="Path of the pivot in time, to fly in the --duration."
+    )
     clearance: float | None = option(
         "--clearance", type=float, metavar="M", help="Distance that rod and machine keep from mount and frames."
     )
@@ -74,11 +77,14 @@ class Kept:
         "--cost", metavar="EXPR", help='Whose square adds to the objective, such as "x_dot[0]"; or file.py:function.'
     )
 
-    def state(self, target: ArrayLike) -> State:
-        """Return the state in which it ends at the `target`, m."""
+    def state(self, target: ArrayLike) -> State | None:
+        """Return the state in which it ends at the `target`, m; None for the end of a path."""
         from flypend import errors
         from flypend.model import State
 
+        if self.path is not None:
+            refuse_idle("target", "end", why="beside --path, at whose end it hovers")
+            return None
         if self.end.endswith(".toml"):
             refuse_idle("target", why=f"beside --end {self.end}, which says where")
             return _from(self.end, "").start
@@ -101,6 +107,7 @@ class Kept:
             "lean": None if self.lean is None else np.radians(self.lean),
             "window": [Window(place[:3], *place[3:]) for place in self.window] or None,
             "waypoints": self.waypoints or None,
+            "path": None if self.path is None else own_from(self.path, None, "path", "--path"),
             "keep": None if self.keep is None else own_from(self.keep, None, "keep", "--keep"),
             "cost": None if self.cost is None else own_from(self.cost, None, "cost", "--cost"),
         }  # fmt: skip

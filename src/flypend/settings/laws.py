@@ -20,7 +20,7 @@ from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
 from flypend.laws.trained import trained
 from flypend.model import Vehicle
-from flypend.planning.constraints import FIELDS, Own
+from flypend.planning.constraints import FIELDS
 from flypend.planning.receding_horizon import nmpc
 from flypend.planning.tracking import plan_and_track
 from flypend.planning.window import Window
@@ -132,18 +132,17 @@ def _constraints(value: Mapping[str, Any], folder: Path | None, key: str) -> dic
     return found
 
 
-def own_from(value: Any, folder: Path | None, name: str, key: str) -> Own:
-    """Return the field `name` of `Constraints`, "keep" or "cost", that `value` specifies.
+def own_from(value: Any, folder: Path | None, name: str, key: str) -> Any:
+    """Return the field `name` of `Constraints`, "keep", "cost" or "path", that `value` specifies.
 
-    It is an expression, `file.py:function` with a path relative to `folder`, or `module:function`. Raises InputError,
-    whose message begins with `key`.
+    It is `file.py:function` with a path relative to `folder`, `module:function` or, but for a path, an expression.
+    Raises InputError, whose message begins with `key`.
     """
     if not isinstance(value, str):
         raise InputError(key, EXPRESSION, repr(value)[:80])
-    found: Own = (
-        _attribute(value, folder, key, "a function") if ":" in value else Expression(value, key, name == "keep")
-    )
-    return found
+    if ":" in value or name == "path":
+        return _attribute(value, folder, key, "a function")
+    return Expression(value, key, name == "keep")
 
 
 def absolute(value: Any, folder: Path) -> Any:

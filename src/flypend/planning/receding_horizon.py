@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, Literal, NamedTuple, Unpack
 
 import casadi as ca
@@ -167,6 +167,11 @@ class Receding:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
         there = _moving(self.reference)(0.0)[:3]
         request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
+
+    @property
+    def mount(self) -> Constraints:
+        """What plans keep where none keeps all: the clearance."""
+        return Constraints(clearance=self.constraints.given.get("clearance"))
 
     def kept(self, x: Array, target: Array) -> Constraints:
         """Return the constraints of a plan from `x` (3,) to the `target` (3,), m: without windows that lie behind."""
@@ -334,7 +339,13 @@ class Pilot(Boards):
         begin, target = self._relative(t, here[:SIZE]), self._where(t)[:3]
         begin[:3] = here[:3]  # constraints are about the world
         rotors, kept = np.clip(here[SIZE:], *self._vehicle.rotor_limits), self._common.kept(here[:3], target)
-        return request(self._error.machine, State.from_packed(begin), "excursion", target, rotors, kept)
+        ask = partial(request, self._error.machine, State.from_packed(begin), "excursion", target, rotors)
+        try:
+            return ask(kept)
+        except InputError:
+            if not kept.loose:
+                raise
+            return ask(self._common.mount)
 
     def _plan(self, t: float, here: Array, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
         """Return a plan from `here` as in `_ask`, what it answers, and why there is none."""
@@ -342,7 +353,7 @@ class Pilot(Boards):
             asked = self._ask(t, here)
         except InputError as error:
             return None, None, str(error)
-        found = plan_within(asked, horizon, iterations, ROUNDS)
+        found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
         if asked.structure.soft:
             asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason

@@ -25,7 +25,7 @@ from flypend.planning.result import Plan
 from flypend.planning.solver import Problem, Settings, Solver, one_lane
 from flypend.plants.lag import step_timing
 
-SETTINGS = Settings(barrier=3e-5, slack=0.01, shrinks=(0.4, 0.375), most_damping=1.0, inside=0.005, margin=(0.02, 1e-4))
+SETTINGS = Settings(barrier=3e-5, shrinks=(0.4, 0.375), most_damping=1.0, inside=0.005, margin=(0.02, 1e-4))
 SUNK = 0.05  # of the weight of the excursion, where the flight has been farther out already
 # Least number of stages of the horizon, and stages of hover behind the plan, after which it has missed hover.
 LEAST, TAIL = 50, 100

@@ -47,7 +47,6 @@ class Settings:
     end_growth: float = 1.3  # and its factor per iteration while they are too large at a barrier
     end_barrier: float = 1e-4  # below this
     relief: float = 1e-4  # barrier down to which a large e costs its logarithm, so that it does not outweigh the end
-    slack: float = 0.1  # least first slack of inequalities that a guess may break
     inside: float = 0.02  # share of the range of a command by which guesses keep away from its limits
     margin: tuple[float, float] = (0.05, 0.05)  # of the ball beyond the farthest state: share of its square, and least
 
@@ -214,7 +213,7 @@ class Solver:
         self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
         self._shared[0, on] = 0.0
         self._fit(whole, on)
-        self._slack[..., on], self._price[:, on] = settings.slack, 1.0
+        self._slack[..., on], self._price[:, on] = 0.1, 1.0
         for measured in (self.merit, self.lack, self.gap, self.end):
             measured[on] = np.inf
         # In the other lanes slacks are what they were.

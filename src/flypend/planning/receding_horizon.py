@@ -101,8 +101,9 @@ def nmpc(
         What flies until there is a plan, in hover, and when there is none; default the inverted law about `reference`.
     constraints : Constraints, optional
         What its plans keep, when they are made and in every iteration: all but waypoints and path. A window counts
-        until the pivot is through. What says where or how fast the pivot may be needs a reference that rests. No plan
-        begins at a state that breaks a constraint, and the laws that fly between plans keep none but the clearance.
+        until the pivot is through. What says where or how fast the pivot may be needs a reference that rests. Where no
+        plan keeps a box, floor, ceiling, speed or `keep` in time, or the flight has broken it already, a plan that
+        breaks it is flown; the laws that fly between plans keep none but the clearance.
     **keywords
         Fields of `Constraints` one by one.
 
@@ -335,7 +336,10 @@ class Pilot(Boards):
         return Coming(found, asked, why, t + max(took, given), t + given, schedule, self._error.scales)
 
     def _ask(self, t: float, here: Array) -> Request:
-        """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError."""
+        """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError.
+
+        Where it breaks a wall already, walls do not count: even such a plan goes less far than the law.
+        """
         begin, target = self._relative(t, here[:SIZE]), self._where(t)[:3]
         begin[:3] = here[:3]  # constraints are about the world
         rotors, kept = np.clip(here[SIZE:], *self._vehicle.rotor_limits), self._common.kept(here[:3], target)

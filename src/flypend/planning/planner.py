@@ -125,7 +125,7 @@ def plan_within(
     """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock.
 
     `rounds` as in `search.Race`. With constraints there are two races, the second of which does not know of them. If no
-    plan keeps them, one that keeps `otherwise` and breaks the others least will do, if that is given.
+    plan keeps them, one that keeps `otherwise` will do, if that is given: of each race the one that breaks least.
     """
     found = [together(asked, horizon, math.inf, iterations, rounds)]
     if asked.kept.loose:

@@ -3,6 +3,9 @@
 python -m benchmarks.nmpc --runs 60 --seed 2211
 python -m benchmarks.nmpc --runs 60 --seed 2211 --row hub
 python -m benchmarks.nmpc --runs 500 --seed 6200 --row nominal --keep flights --piece 100   # five times
+python -m benchmarks.nmpc --runs 30 --seed 7401 --row floor --row walls
+
+Rows with a constraint fly from those of the random starts that have a plan, made at leisure, which keeps it.
 """
 
 from __future__ import annotations
@@ -10,7 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -30,6 +33,7 @@ DELAY = 0.01  # s
 BY_MUJOCO = fp.Plant(engine="mujoco")
 BLOW, BLOWN = 4.0, (0.3, 2.0)  # m/s, and when, s
 GUSTS = fp.Wind(on_vehicle=(0.4, 0.0, 0.0), gust_on_vehicle=0.1)  # N
+EXACT, NEARLY = 1e-3, 1e-2  # m, by which a constraint that is kept, or nearly kept, may be broken in flight
 STANDS = (0.1, 0.2)  # rad and m, from upright and from the origin in the last second: in wind hover leans
 
 
@@ -65,8 +69,14 @@ class Row:
     plant: Callable[[int], fp.Plant]
     latency: float = 0.0
     vehicle: fp.Vehicle = VEHICLE
+    kept: fp.Constraints = field(default_factory=fp.Constraints)
 
 
+KEPT = {
+    "floor": fp.Constraints(floor=-0.7),
+    "ceiling": fp.Constraints(ceiling=0.6),
+    "walls": fp.Constraints(box=((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf))),
+}
 ROWS = {
     "nominal": Row(lambda _: BY_MUJOCO),
     "mismatch": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY), DELAY),
@@ -81,12 +91,17 @@ ROWS = {
     "mocap-masses": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True), sensors="mocap", seed=i)),
     "blow": Row(blow),
     "hub": Row(lambda _: BY_MUJOCO, 0.0, VEHICLE.replace(mount="hub")),
+    **{name: Row(lambda _: BY_MUJOCO, kept=kept) for name, kept in KEPT.items()},
+    **{f"{name}-masses": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i)), kept=kept) for name, kept in KEPT.items()},
 }
 
 
 @dataclass(frozen=True)
 class Flight:
-    """What came of run `i`: its excursion, that of `fp.plan` (None without one) and that of the law, m; times in s."""
+    """What came of run `i`: its excursion, that of `fp.plan` (None without one) and that of the law, m; times in s.
+
+    `beyond` is by how much a constraint was broken, m: by nmpc, by nmpc that did not know of it, and by the law.
+    """
 
     i: int
     stood: bool
@@ -97,6 +112,14 @@ class Flight:
     clearance: float
     changes: int
     spent: list[float]
+    beyond: list[float]
+
+
+def beyond(run: Any, row: Row) -> float:
+    """Return by how much pivot or rod of a `run` are beyond the walls of a `row`, m; negative if they keep them."""
+    assert row.kept.walls is not None
+    points = np.stack([run.x, run.x + row.vehicle.reach * run.y])
+    return float(np.max(np.maximum(row.kept.walls[0] - points, points - row.kept.walls[1])))
 
 
 def told(flights: Sequence[Flight]) -> str:
@@ -112,6 +135,13 @@ def told(flights: Sequence[Flight]) -> str:
     parts += [f"clearance p5 {quantiles(kept, 0.05)} m"] if np.isfinite(kept[0]) else []
     parts += [f"law {sum(f.law_stood for f in flights)} of {runs}, {quantiles([f.law for f in flights], 0.5, 0.95)} m"]
     parts += [f"less than the law {sum(f.excursion < f.law for f in flights)} of {runs}"]
+    if flights[0].beyond:
+        by_nmpc, unaware, by_law = np.array([flight.beyond for flight in flights]).T
+        kept = int(np.sum(by_nmpc <= EXACT))
+        low, high = wilson(kept, runs)
+        parts += [f"keeps {kept} of {runs} ({low:.1%} to {high:.1%}), within a centimetre {np.sum(by_nmpc <= NEARLY)}"]
+        parts += [f"beyond p95, most {quantiles(by_nmpc, 0.95, 1.0)} m"]
+        parts += [f"unaware of it keeps {np.sum(unaware <= EXACT)}, law keeps {np.sum(by_law <= EXACT)}"]
     return ", ".join([*parts, f"handed over more than twice: {sum(flight.changes > 2 for flight in flights)}"])
 
 
@@ -124,7 +154,7 @@ def stands(run: Any) -> bool:
 
 def fly(row: Row, start: fp.State, i: int) -> tuple[Any, Pilot]:
     """Return the flight and the pilot of run `i` of a `row` from a `start`."""
-    law, pilots = fp.nmpc(row.vehicle, latency=row.latency), []
+    law, pilots = fp.nmpc(row.vehicle, latency=row.latency, constraints=row.kept), []
 
     def make(loop: Any, rotors: Any) -> Pilot:
         assert law.flight_computer is not None
@@ -135,11 +165,16 @@ def fly(row: Row, start: fp.State, i: int) -> tuple[Any, Pilot]:
     return run, pilots[0]
 
 
-def flown(row: Row, start: fp.State, i: int) -> Flight:
-    """Fly run `i` of a `row` from a `start`, and plan from it."""
+def flown(row: Row, start: fp.State, i: int) -> Flight | None:
+    """Fly run `i` of a `row` from a `start`, and plan from it; None if no plan keeps the constraint of the row."""
+    try:
+        best = fp.plan(row.vehicle, start, time_limit=PATIENT, constraints=row.kept)
+    except fp.InputError:  # the start breaks it
+        return None
+    if row.kept.given and not best:
+        return None
     run, pilot = fly(row, start, i)
     result = fp.metrics(run)
-    best = fp.plan(row.vehicle, start, time_limit=PATIENT)
     by_law = fp.simulate(row.vehicle, fp.laws.inverted(), start, DURATION, plant=row.plant(i))
     law, stood = fp.metrics(by_law), [fp.metrics(flight).success for flight in (run, by_law)]
     if row.plant(i).wind is not None:
@@ -149,7 +184,9 @@ def flown(row: Row, start: fp.State, i: int) -> Flight:
         print(f"  run {i}: {result.cause or 'stands'}, {changes}", flush=True)
     excursion, changed = best.excursion if best else None, len(pilot.changes)
     kept = result.clearance, changed, pilot.spent
-    return Flight(i, stood[0], result.excursion, excursion, stood[1], law.excursion, *kept)
+    runs = [run, fly(replace(row, kept=fp.Constraints()), start, i)[0], by_law] if row.kept.given else []
+    off = [beyond(flight, row) for flight in runs]
+    return Flight(i, stood[0], result.excursion, excursion, stood[1], law.excursion, *kept, off)
 
 
 def flights_of(row: Row, starts: fp.State, kept: Path | None, piece: int) -> list[Flight]:
@@ -157,7 +194,9 @@ def flights_of(row: Row, starts: fp.State, kept: Path | None, piece: int) -> lis
     lines = kept.read_text().splitlines() if kept and kept.exists() else []
     flights = [Flight(**json.loads(line)) for line in lines]
     for i in sorted(set(range(len(starts))) - {flight.i for flight in flights})[:piece]:
-        flights.append(flown(row, starts[i], i))
+        if (flight := flown(row, starts[i], i)) is None:
+            continue
+        flights.append(flight)
         if kept:
             with kept.open("a") as file:
                 file.write(json.dumps(asdict(flights[-1])) + "\n")

@@ -61,6 +61,62 @@ def test_a_window_and_a_waypoint_are_flown_through(tmp_path, capsys):
     np.testing.assert_allclose(run.x[-1], (1.5, 0, 0), atol=0.01)
 
 
+def test_what_is_ones_own_is_kept_and_costs(tmp_path, capsys):
+    """Denser than the plan's samples, and against the plan without it."""
+    out, function = tmp_path / "plan.nc", tmp_path / "own.py"
+    function.write_text("def sideways(m):\n    return 5 * m.x[0]\n")
+    asked = ["plan", "-o", str(out), "--duration", "2"]
+    cli.app(asked, standalone_mode=False)
+    free = fp.load_plan(out)
+    cli.app([*asked, "--keep", "x[2] < 0.04, x[2] > -0.04"], standalone_mode=False)
+    assert np.max(np.abs(fp.load_plan(out).x[:, 2])) < 0.041 < np.max(np.abs(free.x[:, 2]))
+    cli.app([*asked, "--cost", f"{function}:sideways", "--objective", "cost"], standalone_mode=False)
+    assert np.max(np.abs(fp.load_plan(out).x[:, 0])) < 0.5 * np.max(np.abs(free.x[:, 0]))
+    assert "converged" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [
+        (["--keep", "x[2] <"], "--keep: expected an expression such as"),
+        (["--cost", "z"], "--cost: expected one of x, x_dot"),
+        (["--keep", "no.py:low"], "--keep: expected a file that is there"),
+        (["--keep", "x[2] > 1"], "keep: expected values above 0 at the start"),
+        (["--objective", "cost"], "cost: expected the cost that is the objective"),
+        (["--clearance", "-1"], "clearance: expected a finite number >= 0 m"),
+        (["--end", "no.toml"], "no.toml: expected a readable TOML file"),
+    ],
+)
+def test_wrong_options_end_in_a_line(options, line, call):
+    code, _, told = call("plan", *options)
+    assert code == 2
+    assert line in told
+    assert told.count("\n") == 1
+
+
+def test_the_law_of_a_run_file_says_what_is_planned_and_options_come_first(tmp_path):
+    out, start, end = (tmp_path / name for name in ("plan.nc", "start.toml", "end.toml"))
+    start.write_text(
+        'vehicle = "hehn2011"\nduration = 5.0\n[start]\nx = [-0.5, 0, 0]\ny = [0, 0, 1]\n'
+        '[law]\nname = "plan"\ntarget = [0.5, 0, 0]\nobjective = "effort"\nkeep = "x[1] < 0.3"\nspeed = 0.6\n'
+    )
+    cli.app(["plan", str(start), "-o", str(out), "--speed", "0.5"], standalone_mode=False)
+    plan = fp.load_plan(out)
+    assert plan.target.tolist() == [0.5, 0, 0]
+    assert plan.objective["effort"] == 1
+    assert 0.4 < np.max(np.linalg.norm(plan.x_dot, axis=1)) < 0.501
+    end.write_text('vehicle = "hehn2011"\nduration = 5.0\nlaw.name = "inverted"\n[start]\ny = [0, 0, 1]\n')
+    end.write_text(end.read_text() + "x = [0, 0.2, 0]\nx_dot = [0.2, 0, 0]\n")
+    cli.app(["plan", str(start), "-o", str(out), "--end", str(end)], standalone_mode=False)
+    plan = fp.load_plan(out)
+    np.testing.assert_allclose(plan.x[-1], (0, 0.2, 0), atol=0.01)
+    np.testing.assert_allclose(plan.x_dot[-1], (0.2, 0, 0), atol=0.04)
+    with pytest.raises(fp.InputError, match="--target: expected nothing beside --end"):
+        cli.app(
+            ["plan", str(start), "-o", str(out), "--end", str(end), "--target", "0", "0", "1"], standalone_mode=False
+        )
+
+
 def test_a_bad_ending_is_refused_before_any_work(tmp_path):
     with pytest.raises(fp.InputError, match="nc"):
         cli.app(["plan", "-o", str(tmp_path / "plan.html")], standalone_mode=False)

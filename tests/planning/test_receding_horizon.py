@@ -13,9 +13,13 @@ from flypend.geometry import norm
 from flypend.planning import real_time as real_time_module
 from flypend.planning import receding_horizon
 from flypend.planning.dynamics import Units
+from flypend.planning.fallback import make_sketch
 from flypend.planning.inequalities import BASE, OWN
+from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
 from flypend.planning.real_time import PlanInFlight, RealTime, hover_under, in_weights
+from flypend.planning.search import NOT_KEPT, Verdict
+from flypend.planning.solver import Measures
 from flypend.plants.equations import EquationsEngine
 from flypend.settings.laws import law_from, law_named
 
@@ -267,6 +271,47 @@ def test_a_constraint_of_ones_own_is_kept_in_flight(plant):
     )
     assert kept > -0.01
     assert free < -0.01
+
+
+FALLING = fp.State(y=(0, 0, -1), x_dot=(0, 0, -2.5))  # its bob is 0.14 m above the floor that it cannot avoid
+FLOOR = -0.7  # m
+
+
+def test_where_no_plan_is_in_time_to_keep_walls_that_which_breaks_them_least_is_flown():
+    """Not the law, which breaks them by far more."""
+    start, walls = fp.random_starts(16, 9100)[6], fp.Constraints(box=((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf)))
+    run, pilot = flown_by(fp.nmpc(HEHN, constraints=walls), start, 1.2)
+    by_law = fp.simulate(HEHN, fp.laws.inverted(), start, 1.2, plant="rotors")
+    nmpc, law = (np.max(np.abs([run.x, run.x + HEHN.reach * run.y])[..., :2]) - 0.6 for run in (run, by_law))
+    assert modes(pilot)[:2] == ["planned"]
+    assert nmpc < 0.05
+    assert law > 0.3
+
+
+def test_a_plan_that_breaks_a_floor_is_taken_only_if_that_is_asked_for():
+    asked = request(HEHN, FALLING, "excursion", np.zeros(3), kept=fp.Constraints(floor=FLOOR))
+    strict = plan_within(asked, 12.5, 22, receding_horizon.ROUNDS)
+    assert not strict
+    found = plan_within(asked, 12.5, 22, receding_horizon.ROUNDS, fp.Constraints())
+    assert found
+    assert found.end_error < 0.1
+
+
+def test_what_hovers_and_breaks_a_constraint_is_nearer_to_a_plan_than_what_never_hovers():
+    """However much it breaks: the other is no flight at all."""
+    none, some = np.zeros(2), np.array([True, True])
+    end, lack = np.array([1.5, 0.5]), np.array([0.0, 5.0])
+    verdict = Verdict(Measures(none + 1, none + 1, lack, none, end, none, some, none), soft=False)
+    assert verdict.of(np.arange(2)) == (np.inf, 1, NOT_KEPT)
+
+
+def test_a_sketch_does_not_know_of_walls():
+    """Four iterations that do choose the way worse."""
+    walled, free = (
+        make_sketch(request(HEHN, STARTS[1], "excursion", np.zeros(3), kept=kept), 12.5, 0.0, 0.1)
+        for kept in (fp.Constraints(floor=-0.8), fp.Constraints())
+    )
+    assert np.array_equal(walled.commands, free.commands)
 
 
 def test_places_are_those_of_the_world_wherever_the_reference_is():

@@ -223,8 +223,9 @@ def test_constraints_of_plans_come_from_a_table(name, tmp_path):
         ({"flor": -1}, "did you mean 'floor'"), ({"floor": "low"}, "floor: expected"), ({"path": 3}, "path: expected"),
         ({"window": 3}, "law.window: expected a table"), ({"window": {"width": 1}}, "law.window: expected a centre"),
         ({"window": {"centre": [0, 0, 0], "width": 1, "hight": 1}}, "did you mean 'height'"),
-        ({"keep": "limits"}, "law.keep: expected file.py:function"),
-        ({"keep": "no_such:low"}, "law.keep: expected a module"),
+        ({"keep": "limits"}, "law.keep: expected one of x, x_dot"),
+        ({"keep": "no_such:low"}, "law.keep: expected a module"), ({"keep": 3}, "law.keep: expected an expression"),
+        ({"cost": "x[0] < 1"}, "law.cost: expected values"),
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("name", ["nmpc", "plan"])

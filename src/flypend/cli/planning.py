@@ -6,7 +6,7 @@ import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -14,7 +14,10 @@ from flypend.cli.options import option, options_of, out_option, path, refuse_idl
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
 
     from flypend.flight.trajectory import Trajectory
     from flypend.model import State, Vehicle
@@ -28,7 +31,11 @@ CELLS = 10  # of the map, along each side of a hemisphere
 class Kept:
     """How a plan ends and what it keeps: `Constraints`, with a cube about the target for a box, angles in degrees."""
 
-    end: str = option("--end", default="inverted", help="How it ends: in hover with the rod inverted or hanging.")
+    end: str = option(
+        "--end",
+        default="inverted",
+        help="How it ends: in hover with the rod inverted or hanging; or where the start of a run file is.",
+    )
     floor: float | None = option("--floor", type=float, metavar="M", help="Minimum height of pivot and rod.")
     ceiling: float | None = option("--ceiling", type=float, metavar="M", help="Maximum height of pivot and rod.")
     cube: float | None = option(
@@ -57,30 +64,54 @@ class Kept:
         metavar="X Y Z",
         help="Point that the pivot passes; repeatable, in order.",
     )
+    path: str | None = option(
+        "--path", metavar="FILE.py:FUNCTION", help="Path of the pivot in time, to fly in the --duration."
+    )
+    clearance: float | None = option(
+        "--clearance", type=float, metavar="M", help="Distance that rod and machine keep from mount and frames."
+    )
+    keep: str | None = option(
+        "--keep", metavar="EXPR", help='What holds all the way, such as "norm(x) < 1, y[2] > 0"; or file.py:function.'
+    )
+    cost: str | None = option(
+        "--cost", metavar="EXPR", help='Whose square adds to the objective, such as "x_dot[0]"; or file.py:function.'
+    )
 
-    def state(self, target: tuple[float, float, float]) -> State:
-        """Return the state in which it ends at the `target`, m."""
+    def state(self, target: ArrayLike) -> State | None:
+        """Return the state in which it ends at the `target`, m; None for the end of a path."""
         from flypend import errors
         from flypend.model import State
 
+        if self.path is not None:
+            refuse_idle("target", "end", why="beside --path, at whose end it hovers")
+            return None
+        if self.end.endswith(".toml"):
+            refuse_idle("target", why=f"beside --end {self.end}, which says where")
+            return _from(self.end, "").start
         up = errors.one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
         return State(x=errors.array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
 
-    def about(self, target: tuple[float, float, float]) -> Constraints:
-        """Return the constraints of a flight to the `target`, m."""
+    def about(self, target: ArrayLike, given: Mapping[str, Any]) -> Constraints:
+        """Return the constraints of a flight to the `target`, m: those `given`, but for what the options say."""
         import numpy as np
 
         from flypend import errors
         from flypend.planning.constraints import Constraints
         from flypend.planning.window import Window
+        from flypend.settings.laws import own_from
 
         half = None if self.cube is None else errors.number("--cube", self.cube, above=0, unit="m") / 2
-        return Constraints(
-            floor=self.floor, ceiling=self.ceiling, speed=self.speed,
-            box=None if half is None else np.add(((-half,) * 3, (half,) * 3), target),
-            lean=None if self.lean is None else np.radians(self.lean),
-            window=[Window(place[:3], *place[3:]) for place in self.window] or None, waypoints=self.waypoints or None,
-        )  # fmt: skip
+        own = {
+            "floor": self.floor, "ceiling": self.ceiling, "speed": self.speed, "clearance": self.clearance,
+            "box": None if half is None else np.add(((-half,) * 3, (half,) * 3), target),
+            "lean": None if self.lean is None else np.radians(self.lean),
+            "window": [Window(place[:3], *place[3:]) for place in self.window] or None,
+            "waypoints": self.waypoints or None,
+            "path": None if self.path is None else own_from(self.path, None, "path", "--path"),
+            "keep": None if self.keep is None else own_from(self.keep, None, "keep", "--keep"),
+            "cost": None if self.cost is None else own_from(self.cost, None, "cost", "--cost"),
+        }  # fmt: skip
+        return Constraints(**{**given, **{name: value for name, value in own.items() if value is not None}})
 
 
 @dataclass(frozen=True)
@@ -111,24 +142,25 @@ class Outputs:
 @click.argument("what", required=False)
 @vehicle_option
 @out_option("plan.nc", "Output file (.nc): the plan.")
-@click.option("--objective", default="excursion", help="What to minimise: excursion, effort or time.")
+@click.option("--objective", help="What to minimise: excursion (default), effort, time, or cost: that of --cost alone.")
 @click.option("--duration", type=float, help="Time until hover, s; by default long enough.")
-@click.option("--target", type=float, nargs=3, default=(0.0, 0.0, 0.0), metavar="X Y Z", help="Where the pivot hovers.")
+@click.option("--target", type=float, nargs=3, metavar="X Y Z", help="Where the pivot hovers; default the origin.")
 @options_of(Kept, "keep")
 @options_of(Outputs, "also")
 def plan(
     what: str | None,
     vehicle: str,
     out: Path,
-    objective: str,
+    objective: str | None,
     duration: float | None,
-    target: tuple[float, float, float],
+    target: tuple[float, float, float] | None,
     keep: Kept,
     also: Outputs,
 ) -> None:
     """Plan a flight to hover: from the start in WHAT, a run file, or else from hanging at rest.
 
-    The run file also gives the vehicle; its law and duration are ignored. Figures are .png, .pdf or .svg.
+    The run file also gives the vehicle, and the law "plan" in it objective, target and constraints; options come before
+    them. Another law, and the duration, are ignored. Figures are .png, .pdf or .svg.
     """
     from flypend.files.whole import FIGURES
     from flypend.flight.metrics import metrics
@@ -140,9 +172,12 @@ def plan(
     pages = {"--out": (out, (".nc",)), "--html": (also.html, (".html",)), "--csv": (also.csv, (".csv",))}
     _check_files(pages | {option: (file, FIGURES) for option, file in figures.items()})
     _check_options(what, also.fly, also.in_c)
-    machine, start = _from(what, vehicle)
-    kept = keep.about(target)
-    found = planned(machine, start, objective, duration=duration, target=keep.state(target), constraints=kept)
+    machine, start, asked = _from(what, vehicle)
+    given = {"objective": "excursion", "target": (0.0, 0.0, 0.0), **asked}
+    given |= {name: value for name, value in {"objective": objective, "target": target}.items() if value is not None}
+    aim, place = given.pop("objective"), given.pop("target")
+    kept = keep.about(place, given)
+    found = planned(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
@@ -226,12 +261,23 @@ def _check_files(files: dict[str, tuple[Path | None, tuple[str, ...]]]) -> None:
             raise InputError(named, f"another file than {other}", str(file))
 
 
-def _from(what: str | None, name: str) -> tuple[Vehicle, State]:
-    """Return vehicle and start, e₃ up, of the run file `what`; without one, the vehicle `name` with its rod hanging."""
+class Asked(NamedTuple):
+    """What a run file says of a plan; the start with e₃ up, and the arguments of `plan` if its law is "plan"."""
+
+    vehicle: Vehicle
+    start: State
+    arguments: dict[str, Any]
+
+
+def _from(what: str | None, name: str) -> Asked:
+    """Return what the run file `what` asks for; without one, the vehicle `name` with its rod hanging."""
     from flypend import model
+    from flypend.settings.laws import plan_from
     from flypend.settings.runfile import run_file
 
     if what is None:
-        return model.vehicle(name), model.State(y=(0.0, 0.0, -1.0))
-    flight = run_file(what).flight
-    return flight.vehicle, flight.starts.in_frame(flight.law.e3)
+        return Asked(model.vehicle(name), model.State(y=(0.0, 0.0, -1.0)), {})
+    flight, settings = run_file(what)
+    law = settings["law"]
+    arguments = plan_from(law) if law.get("name") == "plan" else {}
+    return Asked(flight.vehicle, flight.starts.in_frame(flight.law.e3), arguments)

@@ -178,7 +178,10 @@ class Fallback:
 
 
 def make_sketch(asked: Request, horizon: float, begin: float, end: float) -> Schedule:
-    """Return what a few iterations from all guesses make of what is `asked`, to fly from `begin` to `end` (s)."""
+    """Return what a few iterations from all guesses make of what is `asked`, to fly from `begin` to `end` (s).
+
+    They do not know of walls, which so few cannot keep: they would only choose the way worse.
+    """
     rounds, _, iterations = SKETCH
-    found = together(asked, horizon, math.inf, iterations, rounds, SOFT)
+    found = together(asked.unconstrained() if asked.kept.loose else asked, horizon, math.inf, iterations, rounds, SOFT)
     return Schedule(begin, end, stages_of(horizon)[1] * asked.units.time, found.commands * asked.units.force)

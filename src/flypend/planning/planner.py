@@ -21,7 +21,7 @@ from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.durations import HORIZONS, Search, in_time, ladder, shortest
 from flypend.planning.problem import Request, end_of, request
 from flypend.planning.result import Plan, PlanEnsemble
-from flypend.planning.search import Job, agreeing, one_by_one, prepare, together
+from flypend.planning.search import NOT_KEPT, Job, agreeing, one_by_one, prepare, together
 from flypend.planning.verdict import plans_of
 from flypend.signals.waiting import result_of, threads
 
@@ -119,15 +119,21 @@ def horizon_of(asked: Request, duration: float | None) -> float | None:
     )
 
 
-def plan_within(asked: Request, horizon: float, iterations: int, rounds: Mapping[int, int]) -> Plan:
+def plan_within(
+    asked: Request, horizon: float, iterations: int, rounds: Mapping[int, int], otherwise: Constraints | None = None
+) -> Plan:
     """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock.
 
-    `rounds` as in `search.Race`. With constraints there are two races, the first of which does not know of them.
+    `rounds` as in `search.Race`. With constraints there are two races, the second of which does not know of them. If no
+    plan keeps them, one that keeps `otherwise` will do, if that is given: of each race the one that breaks least.
     """
     found = [together(asked, horizon, math.inf, iterations, rounds)]
     if asked.kept.loose:
         found.append(together(asked.unconstrained(), horizon, math.inf, iterations, rounds, kept=asked))
     plans = plans_of([asked] * len(found), found, horizon)
+    if not any(plans) and otherwise is not None:
+        found = [replace(each, lacks="" if each.lacks == NOT_KEPT else each.lacks) for each in found]
+        plans = plans_of([replace(asked, kept=otherwise)] * len(found), found, horizon)
     return min(zip(plans, found, strict=True), key=lambda each: (not each[0], each[1].cost))[0]
 
 

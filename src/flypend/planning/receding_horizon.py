@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, Literal, NamedTuple, Unpack
 
 import casadi as ca
@@ -101,8 +101,9 @@ def nmpc(
         What flies until there is a plan, in hover, and when there is none; default the inverted law about `reference`.
     constraints : Constraints, optional
         What its plans keep, when they are made and in every iteration: all but waypoints and path. A window counts
-        until the pivot is through. What says where or how fast the pivot may be needs a reference that rests. No plan
-        begins at a state that breaks a constraint, and the laws that fly between plans keep none but the clearance.
+        until the pivot is through. What says where or how fast the pivot may be needs a reference that rests. Where no
+        plan keeps a box, floor, ceiling, speed or `keep` in time, or the flight has broken it already, a plan that
+        breaks it is flown; the laws that fly between plans keep none but the clearance.
     **keywords
         Fields of `Constraints` one by one.
 
@@ -167,6 +168,11 @@ class Receding:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
         there = _moving(self.reference)(0.0)[:3]
         request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
+
+    @property
+    def mount(self) -> Constraints:
+        """What plans keep where none keeps all: the clearance."""
+        return Constraints(clearance=self.constraints.given.get("clearance"))
 
     def kept(self, x: Array, target: Array) -> Constraints:
         """Return the constraints of a plan from `x` (3,) to the `target` (3,), m: without windows that lie behind."""
@@ -330,11 +336,20 @@ class Pilot(Boards):
         return Coming(found, asked, why, t + max(took, given), t + given, schedule, self._error.scales)
 
     def _ask(self, t: float, here: Array) -> Request:
-        """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError."""
+        """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError.
+
+        Where it breaks a wall already, walls do not count: even such a plan goes less far than the law.
+        """
         begin, target = self._relative(t, here[:SIZE]), self._where(t)[:3]
         begin[:3] = here[:3]  # constraints are about the world
         rotors, kept = np.clip(here[SIZE:], *self._vehicle.rotor_limits), self._common.kept(here[:3], target)
-        return request(self._error.machine, State.from_packed(begin), "excursion", target, rotors, kept)
+        ask = partial(request, self._error.machine, State.from_packed(begin), "excursion", target, rotors)
+        try:
+            return ask(kept)
+        except InputError:
+            if not kept.loose:
+                raise
+            return ask(self._common.mount)
 
     def _plan(self, t: float, here: Array, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
         """Return a plan from `here` as in `_ask`, what it answers, and why there is none."""
@@ -342,7 +357,7 @@ class Pilot(Boards):
             asked = self._ask(t, here)
         except InputError as error:
             return None, None, str(error)
-        found = plan_within(asked, horizon, iterations, ROUNDS)
+        found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
         if asked.structure.soft:
             asked.numbers[-2] = SOFT_LAST
         return (found if found else None), asked, found.reason

@@ -171,6 +171,7 @@ class Verdict:
             self.stationarity = np.nan_to_num(measures.change / measures.value, nan=UNKNOWN, posinf=UNKNOWN)
         self.cost = np.where(self.arrives & (lack <= TOLERANCE) & np.isfinite(cost), cost, np.inf)
         lacks = np.maximum(measures.end, 1) + lack / TOLERANCE + measures.gap / CLOSED
+        lacks = np.where(self.arrives, lacks, np.fmax(lacks, UNKNOWN) + lacks)  # what arrives comes first
         self.lacks = np.where(np.isfinite(lacks), lacks, np.inf)
 
     def of(self, on: Any) -> tuple[float, int, str]:

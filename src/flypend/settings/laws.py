@@ -24,6 +24,8 @@ from flypend.planning.constraints import FIELDS
 from flypend.planning.receding_horizon import nmpc
 from flypend.planning.tracking import plan_and_track
 from flypend.planning.window import Window
+from flypend.settings.expressions import EXPECTED as EXPRESSION
+from flypend.settings.expressions import Expression
 
 # Gains of the inverted law with a slow attitude loop and no rate feedforward: a negative control, meant to fail.
 DETUNED = {"attitude_bandwidth": 12.0, "rate_feedforward": 0.0}
@@ -35,6 +37,7 @@ OTHERS = {
 }
 ONNX = ".onnx"
 PLACES = ("function", "keep", "cost")  # entries of a law's table that name a function in a file or module
+PLANNED = ("objective", "target")  # what the law "plan" has beside constraints
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
@@ -48,7 +51,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
         A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}. Gains and
         reference of "nmpc" are those of the inverted law that it falls back on; it has latency and computing of its
         own. "nmpc" and "plan" have the fields of `Constraints`: windows as tables of their fields, keep and cost as
-        `file.py:function` or `module:function`.
+        an expression, `file.py:function` or `module:function`. "plan" has an objective and a target as well.
     folder : Path, optional
         Folder to which file paths are relative; default the current one.
     key : str
@@ -66,8 +69,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     if not isinstance(value, Mapping):
         raise InputError(key, "the name of a law, or a table", repr(value))
     if value.get("name") == "plan":
-        only_known(key, value, ("name", *FIELDS))
-        return plan_and_track(**_constraints(value, folder, key))
+        return plan_and_track(**plan_from(value, folder, key))
     if value.get("name") == "nmpc":
         only_known(key, value, ("name", "gains", "reference", "latency", "computing", *FIELDS))
         own = _constraints(value, folder, key) | {
@@ -105,12 +107,18 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     return law_from({"name": one_of(key, name, (*law_names(), *OTHERS))}, folder, key)
 
 
+def plan_from(value: Mapping[str, Any], folder: Path | None = None, key: str = "law") -> dict[str, Any]:
+    """Return the arguments of `plan` that `value`, the table of the law "plan", specifies. Raises InputError."""
+    only_known(key, value, ("name", *PLANNED, *FIELDS))
+    return _constraints(value, folder, key) | {name: value[name] for name in PLANNED if name in value}
+
+
 def _constraints(value: Mapping[str, Any], folder: Path | None, key: str) -> dict[str, Any]:
     """Return the fields of `Constraints` in the table `value` of a law, as `nmpc` takes them. Raises InputError."""
     found = {name: entry for name, entry in value.items() if name in FIELDS}
     for name in PLACES:
         if name in found:
-            found[name] = _attribute(str(found[name]), folder, f"{key}.{name}", "a function")
+            found[name] = own_from(found[name], folder, name, f"{key}.{name}")
     if "window" in found:
         tables = [found["window"]] if isinstance(found["window"], Mapping) else found["window"]
         if not isinstance(tables, list) or not all(isinstance(each, Mapping) for each in tables):
@@ -122,6 +130,19 @@ def _constraints(value: Mapping[str, Any], folder: Path | None, key: str) -> dic
                 raise InputError(f"{key}.window", f"a {missing[0]}", repr(each)[:80])
         found["window"] = [Window(**each) for each in tables]
     return found
+
+
+def own_from(value: Any, folder: Path | None, name: str, key: str) -> Any:
+    """Return the field `name` of `Constraints`, "keep", "cost" or "path", that `value` specifies.
+
+    It is `file.py:function` with a path relative to `folder`, `module:function` or, but for a path, an expression.
+    Raises InputError, whose message begins with `key`.
+    """
+    if not isinstance(value, str):
+        raise InputError(key, EXPRESSION, repr(value)[:80])
+    if ":" in value or name == "path":
+        return _attribute(value, folder, key, "a function")
+    return Expression(value, key, name == "keep")
 
 
 def absolute(value: Any, folder: Path) -> Any:

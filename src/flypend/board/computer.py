@@ -11,7 +11,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
-from flypend.board.program import Parts, filters, initial_memory, known_to_computer, parts, predicting, remembering
+from flypend.board.program import Parts, filters, initial_memory, known_to_computer, parts, predicting, remembering, trimming
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import Numbers
 from flypend.laws import Controller
@@ -78,7 +78,7 @@ class SteppedBoard:
         if stages.estimating is not None:
             self._expecting = stages.estimating.advance(self.filtered, outside, command, self._memory)
         self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
-        return command
+        return stages.trim(self._memory, command, NONE)
 
 
 class _Estimating(NamedTuple):
@@ -105,6 +105,7 @@ class _Stages(NamedTuple):
     predict: Callable[..., Any]
     steer: Steer
     remember: Callable[..., Any]
+    trim: Callable[..., Any]
     estimating: _Estimating | None
 
 
@@ -116,7 +117,8 @@ def _stages(loop: Loop) -> _Stages:
         carry, first = made.estimator.carry(), made.memory.place("commands").start
         correct = as_numpy(made.estimator.correct())
         estimating = _Estimating(correct, as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled))
-    return _Stages(made, as_numpy(predicting(made)), steer, as_numpy(remembering(made)), estimating)
+    predict, remember, trim = (as_numpy(program(made)) for program in (predicting, remembering, trimming))
+    return _Stages(made, predict, steer, remember, trim, estimating)
 
 
 def _compile(loop: Loop, believed: Believed) -> Callable[..., Any]:

@@ -22,7 +22,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar
+from flypend.geometry import Numbers, Scalar, apply
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
@@ -40,6 +40,8 @@ BAND = np.pi / 2
 SPACING = 8e-3
 # Shortest delay, in control periods, so that the mean over it exists.
 LEAST = 1e-3
+# Largest moment that the model is taken to lack, as a share of the largest: a motor that is lost is not made up for.
+MOST_LACKING = 0.15
 WRENCH = 4
 
 
@@ -57,10 +59,14 @@ class DelayEstimator:
     lag_left : float
         What is left of the rotors' lag after the computer's lead, s. It is predicted over as well, under the last
         command.
+    observer : float
+        Bandwidth at which it finds the moment that the model lacks, 1/s; 0 for not at all.
     """
 
-    def __init__(self, believed: Believed, told: float, reach: float, period: float, lag_left: float) -> None:
-        self._lag_left = lag_left
+    def __init__(
+        self, believed: Believed, told: float, reach: float, period: float, lag_left: float, observer: float = 0.0
+    ) -> None:
+        self._lag_left, self._observer = lag_left, observer
         self._believed, self._period = believed, period
         self._told, self._longest = max(told, LEAST * period), told + reach
         self._stride = max(1, round(SPACING / period))
@@ -78,6 +84,7 @@ class DelayEstimator:
             Field("earlier", 3, "moment that acted then, body, N m"),
             Field("smooth", 6, "error and slope behind the first filter, rad/s^2 and rad/s^3"),
             Field("smoother", 6, "the same behind the second"),
+            Field("lacking", 3, "angular acceleration that rotors have to give beyond their model, body, rad/s^2"),
             Field("past", self.depth * self._believed.rotors, "forces of the rotors, newest first, N"),
         )
         return Record("delay", "Estimator of the delay of the loop.", fields)
@@ -102,7 +109,7 @@ class DelayEstimator:
         b, h = self._believed, self._period
         memory, omega = ca.SX.sym("memory", self.record.length), ca.SX.sym("w", 3)
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
-        begun, phase, delay, known, before, earlier, smooth, smoother, past = self.record.split(memory).values()
+        begun, phase, delay, known, before, earlier, smooth, smoother, lacking, past = self.record.split(memory).values()
         entries = self._entries(past, rotors)
         acting, impulse, lever = (self._wrench(entries @ weights) for weights in self.weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
@@ -119,9 +126,13 @@ class DelayEstimator:
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
         next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
         phase, past = self._age(phase, entries)
+        limit = MOST_LACKING * angular_authority(b.vehicle)
+        lacking = lacking - begun * h * self._observer * wrong
+        lacking = lacking / ca.fmax(1, ca.norm_2(lacking) / limit)
         kept = self.record.join({
             "begun": 1, "phase": phase, "found": found, "information": information, "omega": omega,
-            "earlier": next_earlier, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
+            "earlier": next_earlier, "smooth": smooth, "smoother": smoother,
+            "lacking": lacking, "past": ca.vec(past),
         })  # fmt: skip
         horizon = delay + self._lag_left
         ramp = self._extend(delay, impulse, lever, rotors, command)
@@ -142,6 +153,26 @@ class DelayEstimator:
         last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
         first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
         return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)
+
+    def trim(self, limits: bool) -> ca.Function:
+        """Return (memory, command (n,), params) → forces (n,) to send for it, N, within those of the rotors if `limits`.
+
+        Whatever else remembers or predicts knows the `command`: what rotors give counts, not what they are asked for.
+        """
+        b = self._believed
+        memory, command = ca.SX.sym("memory", self.record.length), ca.SX.sym("u", b.rotors)
+        sent = command + self._share(memory)
+        if limits:
+            low, high = b.vehicle.rotor_limits
+            sent = ca.fmin(ca.fmax(sent, low), high)
+        sent = ca.if_else(ca.norm_1(command) < np.inf, sent, np.nan)
+        return ca.Function("trim", [memory, command, b.symbols], [ca.densify(sent)])
+
+    def _share(self, memory: Numbers) -> Numbers:
+        """Return the forces (n,) that give what the model lacks, N."""
+        tilting, yawing, spins = self._believed.vehicle.sharing()
+        moment = apply(self._believed.vehicle.I, self.record.split(memory)["lacking"])
+        return ca.mtimes(tilting, moment[:2]) + spins * yawing * moment[2]
 
     def carry(self) -> ca.Function:
         """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""

@@ -158,7 +158,7 @@ def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
         return None
     computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
     left = 0.0 if computer.models_lag else believed.lag / lead
-    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left)
+    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left, computer.observer)
 
 
 def filters(plant: Plant) -> bool:
@@ -219,7 +219,8 @@ def board(
         carry = made.estimator.carry()
         after = ca.vertcat(after, carry(corrected, outside, commands[: carry.size1_in(2)], params))
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
-    return ca.Function("board", [whole, measurement, path, gains, params], [after, given], *names)
+    sent = trimming(made)(after[: made.own.length], given, params)
+    return ca.Function("board", [whole, measurement, path, gains, params], [after, sent], *names)
 
 
 def _predictor(loop: Loop) -> tuple[Segment, ...]:
@@ -283,6 +284,18 @@ def remembering(made: Parts) -> ca.Function:
         rotors = _advance_rotors(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[:-1])
     return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])
+
+
+def trimming(made: Parts) -> ca.Function:
+    """Return (memory, command, params) → command to send: with what rotors have to give beyond their model."""
+    memory, _, params = made.symbols
+    given = ca.MX.sym("given", command_width(made.loop))
+    if made.finding is None:
+        sent = given
+    else:
+        delay = memory[made.own.place("delay")]
+        sent = made.finding.trim(made.loop.sampled.limits)(delay, given, params)
+    return ca.Function("trimmed", [memory, given, params], [sent])
 
 
 def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:

@@ -69,11 +69,12 @@ MOUNTED: Mapping[str, Mapping[str, float]] = MappingProxyType(
 # Factors of the default gains with which hover trembles least where the state is estimated from noisy readings; the
 # price is excursion. They minimise the tremor of `plants.tremor` of 13 agile and 10 pumping vehicles of
 # `benchmarks.vehicles` whose loops keep their damping with 15 % more or less gain and with delays of 5 ms and 0.15 lags
-# more than believed; those of a rod that pumps are brought back by a third, so that it is still caught in flight.
+# more than believed. Two are brought back by flights: the position loop of an agile vehicle, for its excursion, and the
+# rod's of a pumping one, so that the rod is still caught.
 CALM: Mapping[bool, Mapping[str, float]] = MappingProxyType(
     {
         True: {
-            "position_bandwidth": 0.6, "rod_damping": 1.22, "attitude_damping": 1.4, "rate_feedforward": 1.5,
+            "position_bandwidth": 0.75, "rod_damping": 1.22, "attitude_damping": 1.4, "rate_feedforward": 1.5,
             "coast_time": 1.45,
         },
         False: {

@@ -38,9 +38,9 @@ PLACE = [KEPT.index(COORDINATES.index(f"x_{i}")) for i in (1, 2, 3)]
 AXIS = [KEPT.index(COORDINATES.index(f"theta_{i}")) for i in (1, 2)]
 # Largest tremor of the thrust axis, rad, RMS. Errors of the axis about two directions exceed r at one instant with
 # probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05. With
-# σ = 0.05/3.3 one flight in 2,500 does not.
-MOST_TREMOR = 0.05 / 3.3
-SHARES = 4  # steps from the default gains to the calmest
+# σ = 0.05/3, one flight in 400 does not.
+MOST_TREMOR = 0.05 / 3
+SHARES = 8  # steps from the default gains to the calmest
 # Densities are of order 1e-8 in SI units; in these the Riccati equation is well conditioned.
 UNIT = 1e-6
 ROUNDOFF = 1e-12

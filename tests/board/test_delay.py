@@ -7,8 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import flypend as fp
+from flypend.board import delay as delays
 from flypend.board.believed import Believed
-from flypend.board.delay import DelayEstimator
+from flypend.board.delay import MOMENT_SHARE, DelayEstimator
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.flight.request import Flight
@@ -154,6 +155,22 @@ def test_mean_and_ramp_are_those_of_the_wrench_between_what_is_remembered(delay,
 def _weights(estimator):
     age, phase = ca.SX.sym("age"), ca.SX.sym("phase")
     return ca.Function("weights", [age, phase], [ca.densify(w) for w in estimator.weights(age, phase)])
+
+
+@pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
+def test_the_moment_of_unequal_rotors_is_given(sensors):
+    """A short rod stands at its reference though two rotors are 8 % apart. Negative control: without, it is far off."""
+    short, starts = VEHICLE.replace(rod_length=0.15), fp.State(x=np.zeros((8, 3)), y=np.tile([0.0, 0.0, 1.0], (8, 1)))
+    plant = ROTORS.replace(strength=(1.04, 1.0, 0.96, 1.0), sensors=sensors)
+    off = []
+    for share in (MOMENT_SHARE, 0.0):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(delays, "MOMENT_SHARE", share)
+            law = fp.laws.inverted(observer=1.5 if share else 1.501)  # another program
+            flown = fp.simulate_ensemble(short, law, starts, 20.0, plant=plant, times=np.arange(17.0, 20.0, 0.1))
+        off.append(np.linalg.norm(np.nanmean(flown.samples.x, axis=(0, 1))))
+    assert off[0] < 0.1 * off[1]
+    assert off[1] > 0.1
 
 
 # What it is worth -------------------------------------------------------------------------------------------------

@@ -11,7 +11,16 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
-from flypend.board.program import Parts, filters, initial_memory, known_to_computer, parts, predicting, remembering, trimming
+from flypend.board.program import (
+    Parts,
+    filters,
+    initial_memory,
+    known_to_computer,
+    parts,
+    predicting,
+    remembering,
+    trimming,
+)
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import Numbers
 from flypend.laws import Controller

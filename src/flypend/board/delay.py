@@ -13,6 +13,10 @@ longer than believed counts as delay.
 A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. So both
 sides of what is linear in d, e + d̂ s = d s with error e and slope s, pass the same filter, whose band is below that.
 Were e and s filtered by themselves, errors of old estimates would be corrected again and again, and d̂ would overshoot.
+
+What is left of the filtered error, e + (d̂ − d) s, is an angular acceleration that the model lacks, as of unequal rotors
+or a centre of mass that is off. Its integral is added to what is sent to the rotors (`trim`), which ends it; all else
+goes on as if rotors gave what they are asked for.
 """
 
 from __future__ import annotations
@@ -113,7 +117,9 @@ class DelayEstimator:
         b, h = self._believed, self._period
         memory, omega = ca.SX.sym("memory", self.record.length), ca.SX.sym("w", 3)
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
-        begun, phase, delay, known, before, earlier, smooth, smoother, lacking, past = self.record.split(memory).values()
+        begun, phase, delay, known, before, earlier, smooth, smoother, lacking, past = self.record.split(
+            memory
+        ).values()
         entries = self._entries(past, rotors)
         acting, impulse, lever = (self._wrench(entries @ weights) for weights in self.weights(delay, phase))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.

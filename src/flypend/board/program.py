@@ -158,7 +158,9 @@ def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
         return None
     computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
     left = 0.0 if computer.models_lag else believed.lag / lead
-    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left, computer.observer)
+    return DelayEstimator(
+        believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left, computer.observer
+    )
 
 
 def filters(plant: Plant) -> bool:

@@ -165,9 +165,9 @@ class DelayEstimator:
         return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)
 
     def trim(self, limits: bool) -> ca.Function:
-        """Return (memory, command (n,), params) → forces (n,) to send for it, N, within those of the rotors if `limits`.
+        """Return (memory, command (n,), params) → forces (n,) to send for it, N; within rotor limits if `limits`.
 
-        Whatever else remembers or predicts knows the `command`: what rotors give counts, not what they are asked for.
+        Whatever else remembers or predicts knows the command: what rotors give counts, not what they are asked for.
         """
         b = self._believed
         memory, command = ca.SX.sym("memory", self.record.length), ca.SX.sym("u", b.rotors)

@@ -9,9 +9,9 @@ only the noise of an accelerometer acts. With the error e = ξ − ξ̂ after a 
     e⁺ = (1 − L H)(Φ e + noise of the accelerometer) − L (noise of the readings).
 
 A command acts a delay d after its readings. Predicted from there, ξ̂ is off by e^{A d} e; so the loop is that of no
-delay, driven by e^{A d} e. Over what the lead leaves of the lag, the computer predicts as well, under its last command.
-(ξ, w, c, e) is a linear system in steps of h, whose covariance solves a Lyapunov equation. Flights tremble some 5 % more
-with motion capture, and up to a fifth more on board: forces and biases are estimated besides.
+delay, driven by e^{A d} e. Over what the lead leaves of the lag, the computer predicts as well, under its last
+command. (ξ, w, c, e) is a linear system in steps of h, whose covariance solves a Lyapunov equation. Flights tremble some
+5 % more with motion capture, and up to a fifth more on board: forces and biases are estimated besides.
 """
 
 from __future__ import annotations
@@ -171,7 +171,7 @@ def _filtered(A: Numbers, sensors: Sensors, vehicle: Vehicle, period: float) -> 
 
 def exponential(A: Numbers) -> Numbers:
     """Return e^A (n, n), by the Taylor series of A/2ᵏ with a norm below 1/8, squared k times."""
-    halvings = max(0, 3 + int(np.ceil(np.log2(max(np.linalg.norm(A, 1), 1e-9)))))
+    halvings = max(0, 3 + int(np.ceil(np.log2(max(float(np.linalg.norm(A, 1)), 1e-9)))))
     part = A / 2.0**halvings
     found = term = np.eye(len(A))
     for k in range(1, 11):

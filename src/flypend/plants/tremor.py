@@ -10,8 +10,8 @@ only the noise of an accelerometer acts. With the error e = ξ − ξ̂ after a 
 
 A command acts a delay d after its readings. Predicted from there, ξ̂ is off by e^{A d} e; so the loop is that of no
 delay, driven by e^{A d} e. Over what the lead leaves of the lag, the computer predicts as well, under its last
-command. (ξ, w, c, e) is a linear system in steps of h, whose covariance solves a Lyapunov equation. Flights tremble some
-5 % more with motion capture, and up to a fifth more on board: forces and biases are estimated besides.
+command. (ξ, w, c, e) is a linear system in steps of h, whose covariance solves a Lyapunov equation. Flights tremble
+some 5 % more with motion capture, and up to a fifth more on board: forces and biases are estimated besides.
 """
 
 from __future__ import annotations

@@ -4,15 +4,16 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.board import trim as trimming
 from flypend.board.believed import Believed
 from flypend.board.computer import SteppedBoard
-from flypend.board.trim import trim
+from flypend.board.trim import DOUBT, trim
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
 from flypend.flight.tasks import task_starts
-from flypend.plants import PRESETS, ROTORS
+from flypend.plants import PRESETS, ROTORS, SUITES
 
 VEHICLE = fp.vehicle("crazyflie")
 NONE = np.zeros(0)
@@ -66,6 +67,22 @@ def test_what_is_sent_takes_the_moment_back():
     assert np.all((full >= low - 1e-15) & (full <= high + 1e-15))
     np.testing.assert_allclose((VEHICLE.mixing() @ full)[1:3], -4 * high * lever[:2], rtol=1e-12)
     assert np.isnan(send(np.array([np.nan, 0.1, 0.1, 0.1]), lever, NONE)).all()
+
+
+@pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
+def test_a_short_rod_on_unequal_rotors_stands_at_its_reference(sensors):
+    """Two rotors are 8 % apart. Negative control: without a trim it is far off."""
+    vehicle = fp.vehicle("hehn2011").replace(rod_length=0.15)
+    starts = fp.State(x=np.zeros((8, 3)), y=np.tile([0.0, 0.0, 1.0], (8, 1)))
+    plant, off = ROTORS.replace(strength=(1.04, 1.0, 0.96, 1.0), sensors=sensors), []
+    for doubt, observer in ((DOUBT, 1.5), (1e9, 1.501)):  # two programs
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(trimming, "DOUBT", doubt)
+            law = fp.laws.inverted(observer=observer)
+            flown = fp.simulate_ensemble(vehicle, law, starts, 20.0, plant=plant, times=np.arange(17.0, 20.0, 0.1))
+        off.append(np.linalg.norm(np.nanmean(flown.samples.x, axis=(0, 1))))
+    assert off[0] < 0.1 * off[1]
+    assert off[1] > 0.1
 
 
 def test_crazyflie_stands_with_its_centre_of_mass_off_by_three_millimetres():

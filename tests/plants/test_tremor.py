@@ -8,6 +8,7 @@ import pytest
 import flypend as fp
 from flypend.flight.request import Flight
 from flypend.laws import inverted
+from flypend.laws.inverted_gains import CALM
 from flypend.plants import SUITES, Plant
 from flypend.plants.loop import Loop
 from flypend.plants.tremor import MOST_TREMOR, calm, too_noisy, tremor
@@ -22,19 +23,37 @@ SLOWER, SLOW = (  # the calmest gains do for the slow one
 PLAIN = inverted().with_gains(inverted().gains_for(VEHICLE)).bind(VEHICLE)
 
 
-@pytest.mark.parametrize("sensors", [SLOWER, ONBOARD], ids=["mocap", "onboard"])
-def test_vehicles_tremble_as_theory_says(sensors):
-    runs, duration = 60, 16.0  # on board, the bias of the gyroscope is known well after some ten seconds
+@pytest.mark.parametrize(
+    ("sensors", "changes", "delay"),
+    [(MOCAP, {}, 0.0), (ONBOARD, {}, 0.0), (MOCAP, {"rod_length": 0.16, "rotor_lag": 0.06}, 0.02)],
+    ids=["mocap", "onboard", "short rod, slow rotors, delay"],
+)
+def test_vehicles_tremble_as_theory_says(sensors, changes, delay):
+    runs, duration, vehicle = 60, 16.0, VEHICLE.replace(**changes)
+    law = inverted(latency=delay)  # of which nothing moves enough to tell it
+    law = law.with_gains(law.gains_for(vehicle)).bind(vehicle)
     hover = fp.State(x=np.zeros((runs, 3)), y=np.tile([0.0, 0.0, 1.0], (runs, 1)))
-    plant = Plant(sensors=sensors.replace(start=fp.Noise(x=1e-3, x_dot=1e-3, attitude=1e-3, y=1e-3, y_dot=1e-3)))
-    late = np.arange(12.0, duration, 0.02)
-    flown = fp.simulate_ensemble(VEHICLE, PLAIN, hover, duration, plant=plant, times=late).samples
+    sensors = sensors.replace(start=fp.Noise(x=1e-3, x_dot=1e-3, attitude=1e-3, y=1e-3, y_dot=1e-3))
+    late = np.arange(8.0, duration, 0.02)  # on board, the bias of the gyroscope is known well after some ten seconds
+    plant = Plant(sensors=sensors, delay=delay)
+    flown = fp.simulate_ensemble(vehicle, law, hover, duration, plant=plant, times=late).samples
     place = np.sqrt(np.mean(np.sum(flown.x**2, axis=-1)))
     axis = np.sqrt(np.mean(np.sum(flown.R[..., :2, 2] ** 2, axis=-1)))
-    expected = tremor(PLAIN, sensors, 1 / 500.0)
-    # A seventh for what the theory leaves out, and as much for some two hundred independent seconds of wandering.
+    expected = tremor(law, sensors, 1 / 500.0, delay)
+    # What the theory leaves out, and for the place, which wanders slowly, the small number of independent seconds.
+    assert axis == pytest.approx(expected.axis, rel=0.1)
     assert place == pytest.approx(expected.place, rel=0.25)
-    assert axis == pytest.approx(expected.axis, rel=0.2)
+
+
+def test_latency_delay_and_lag_each_add_to_the_tremor():
+    prompt = MOCAP.replace(**{name: replace(getattr(MOCAP, name), latency=0.0) for name in POSES})
+    least = tremor(PLAIN, prompt, 0.002).axis
+    slow = inverted().bind(VEHICLE.replace(rotor_lag=0.06))
+    quick = inverted(**{name: slow.gains[name] for name in slow.gains if name != "form"})
+    quick = quick.bind(VEHICLE.replace(rotor_lag=0.0))
+    assert tremor(PLAIN, MOCAP, 0.002).axis > 1.02 * least
+    assert tremor(PLAIN, prompt, 0.002, 0.02).axis > 1.05 * least
+    assert tremor(slow, prompt, 0.002).axis > 1.05 * tremor(quick, prompt, 0.002).axis
 
 
 def test_noise_of_the_readings_passes_through_in_proportion():
@@ -46,7 +65,7 @@ def test_noise_of_the_readings_passes_through_in_proportion():
 
 
 def test_a_short_rod_behind_slow_rotors_is_foretold_to_tremble():
-    short = VEHICLE.replace(rod_length=0.12, rotor_lag=0.06)
+    short = VEHICLE.replace(rod_length=0.08, rotor_lag=0.06)
     law, quiet = inverted().bind(short), MOCAP.replace(rod=replace(MOCAP.rod, noise=MOCAP.rod.noise / 2))
     assert "half the noise of the rod readings" in too_noisy(law, Plant(sensors=MOCAP))
     assert tremor(law, quiet, 0.002).axis < tremor(law, MOCAP, 0.002).axis / 1.3
@@ -62,7 +81,14 @@ def test_gains_are_as_calm_as_the_sensors_need():
     assert tremor(slower, SLOW, 0.002).axis < MOST_TREMOR < tremor(law, SLOW, 0.002).axis
     assert slower.gains["rod_damping"] > law.gains["rod_damping"]
     same = {name for name in law.gains if slower.gains[name] == law.gains[name]}
-    assert set(law.gains) - same == {"rod_damping", "rate_feedforward", "coast_time"}
+    assert set(law.gains) - same == set(CALM[True])
+
+
+def test_calm_gains_are_stable_and_tremble_less():
+    for name in ("hehn2011", "crazyflie", "nayak2018"):
+        law = inverted().bind(fp.vehicle(name))
+        told = [tremor(law.calmed(share), MOCAP, 0.002).axis for share in (0.0, 0.5, 1.0)]
+        assert told[2] < told[1] < told[0]
 
 
 def test_a_flight_takes_the_gains_of_its_sensors_and_back():
@@ -84,9 +110,6 @@ def test_given_gains_stay():
     assert found.gains["rod_damping"] == 0.5
     assert found.gains["rate_feedforward"] > damped.gains["rate_feedforward"]
     assert calm(PLAIN, Plant(sensors=SLOWER)) is PLAIN
-    paper = fp.vehicle("nayak2018")  # too slow to have calmer gains
-    slow = inverted().bind(paper)
-    assert calm(slow, Plant(sensors=SLOWER)) is slow
 
 
 def test_a_law_on_a_path_is_calmed_for_hover_and_stays_on_its_path():

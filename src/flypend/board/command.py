@@ -16,6 +16,7 @@ from flypend.model import State, Vehicle
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
+from flypend.plants.lag import largest_lead
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 
@@ -31,10 +32,9 @@ def steering(law: BoundLaw) -> Steering:
 def usable_lead(law: BoundLaw | Controller, vehicle: Vehicle, plant: Plant) -> float:
     """Return the lead of `law`, limited so that a rotor of `vehicle` reaches its force in one period of `plant`.
 
-    The limit is 1/(1 − e^{−h/T}) for a lag T and a period h; more would make the rotor overshoot between commands.
+    See `plants.lag.largest_lead`.
     """
-    lag = max(vehicle.rotor_lag, 1e-9)
-    return float(min(law.computer.lead, 1 / -np.expm1(-1 / (plant.rate * lag))))
+    return float(min(law.computer.lead, largest_lead(vehicle.rotor_lag, 1 / plant.rate)))
 
 
 def command_width(loop: Loop) -> int:

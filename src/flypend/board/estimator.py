@@ -254,19 +254,10 @@ class Filter:
         return steady_gain(self.sensors.moment_error**2 / min(gyro.rate, 1 / self.period), gyro.variance)
 
     def _densities(self, force: Vector) -> Densities:
-        """Return the densities where `force` (3,) acts on the whole beside its weight, world frame, N.
-
-        The faster the accelerometer is followed, the less the model's own errors count. Its noise counts in full, but
-        what passes in hover is slower: forces that last are taken from the same corrections, which is not counted.
-        """
-        sensors, departure = self.sensors, _departure(force, self._believed.vehicle)
-        assert sensors.gyro is not None
-        steady, lacking = sensors.force_error**2, sensors.manoeuvre_error**2 * departure
-        turning = sensors.gyro.density(self.period)
-        share = sensors.trust(self.period, departure)
-        noise = 0.0 if sensors.accelerometer is None else sensors.accelerometer.density(self.period)
-        on_vehicle = steady + (1 - share) * lacking + noise
-        return Densities(on_vehicle, steady + lacking, turning)
+        """Return the densities where `force` (3,) acts on the whole beside its weight, world frame, N."""
+        assert self.sensors.gyro is not None
+        departure = _departure(force, self._believed.vehicle)
+        return Densities(*self.sensors.lacking(self.period, departure), self.sensors.gyro.density(self.period))
 
 
 def _departure(force: Vector, vehicle: Vehicle) -> Scalar:
@@ -300,15 +291,9 @@ def _lasting(
     return total, difference, ca.vertcat(total - on_bob, on_bob)
 
 
-def delay_of(plant: Plant) -> float:
-    """Return the delay (s) from measurement to command that the estimator in a `plant` with sensors assumes."""
-    given = plant.sensors.command_delay
-    return float(plant.delay if given is None else given)
-
-
 def segments_of(plant: Plant) -> tuple[Segment, ...]:
     """Return the intervals of a control period by the age of the command that acts, as the estimator assumes them."""
-    return within_period(delay_of(plant), 1 / plant.rate)
+    return within_period(plant.believed_delay, 1 / plant.rate)
 
 
 def steady_gain(wander: float, noise: float) -> float:

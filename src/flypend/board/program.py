@@ -20,7 +20,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import command_width, idle_command, law_command, steering, usable_lead
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
-from flypend.board.estimator import Filter, delay_of, segments_of
+from flypend.board.estimator import Filter, segments_of
 from flypend.board.trim import trim
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
@@ -133,7 +133,7 @@ def known_to_computer(plant: Plant) -> Plant:
     """
     sensors = plant.sensors
     if sensors is not None:
-        sensors = sensors.replace(command_delay=delay_of(plant))
+        sensors = sensors.replace(command_delay=plant.believed_delay)
     return Plant(
         rate=plant.rate, limits=plant.limits, interface=plant.interface, rate_loop_rate=plant.rate_loop_rate,
         rate_loop_gain=plant.rate_loop_gain, sensors=sensors,

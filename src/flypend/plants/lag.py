@@ -112,3 +112,8 @@ def hold_in_turn(
 def _change(start: Numbers, end: Numbers, mean: Numbers, ratio: Scalar) -> Numbers:
     """Return the part of a ramp's change, 12 times the first moment, that the lag adds; `ratio` is T/H."""
     return 12 * ratio * (mean - (start + end) / 2)
+
+
+def largest_lead(lag: float, period: float) -> float:
+    """Return 1/(1 − e^{−h/T}) for a `lag` T and a `period` h, s: more made a rotor overshoot between commands."""
+    return float(1 / -np.expm1(-period / max(lag, 1e-9)))

@@ -289,6 +289,12 @@ class Sampled:
         """Hash by content, since `mismatch` is a dict."""
         return hash(repr(self))
 
+    @property
+    def believed_delay(self) -> float:
+        """The delay (s) from measurement to command that an estimator on board assumes."""
+        given = None if self.sensors is None else self.sensors.command_delay
+        return float(self.delay if given is None else given)
+
     def true_vehicle(self, vehicle: Vehicle) -> Vehicle:
         """Return the true vehicle for the nominal `vehicle`, with `mismatch`, `lag` and what the joint adds applied.
 

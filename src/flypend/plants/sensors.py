@@ -265,6 +265,17 @@ class Sensors:
         followed = self.following(departure)
         return followed / (followed + self.force_error / np.sqrt(self.position.density(period)))
 
+    def lacking(self, period: float, departure: Any) -> tuple[Any, Any]:
+        """Return the densities of specific forces on vehicle and bob that the estimator reckons with, (m/s²)²/Hz.
+
+        `period` is the control period, s, `departure` as in `following`. The faster the accelerometer is followed, the
+        less the model's own errors count. Its noise counts in full, but what passes in hover is slower: forces that
+        last are taken from the same corrections, which is not counted.
+        """
+        steady, moving = self.force_error**2, self.manoeuvre_error**2 * departure
+        noise = 0.0 if self.accelerometer is None else self.accelerometer.density(period)
+        return steady + (1 - self.trust(period, departure)) * moving + noise, steady + moving
+
     def felt(self, period: float, departure: Any = 0.0) -> Any:
         """Return the density of the accelerometer's noise in the estimate, (m/s²)²/Hz.
 

@@ -1,14 +1,17 @@
 """How much a vehicle trembles in hover, by linear theory: what the noise of its sensors does through estimator and law.
 
-In the coordinates ξ of `laws.linearise` without the heading, about inverted hover, the vehicle moves by ξ̇ = A ξ + B u
-under u = −K ξ̂. The readings are H ξ with white noise of density R, and the estimator is a Kalman filter,
+In the coordinates ξ of `laws.linearise` without the heading, about inverted hover, ξ̇ = A ξ + B w with the wrench w of
+rotors of lag T, ẇ = (c − w)/T. Each control period h the computer commands c = w + lead (−K ξ̂ − w) for the ξ̂ that it
+predicts. The readings are H ξ(t − latency) = H e^{−A latency} ξ(t), with white noise of variance R/h a period, and the
+estimator is a Kalman filter with the densities Q that the one on board believes. The world is as its model has it: of Q
+only the noise of an accelerometer acts. With the error e = ξ − ξ̂ after a correction, Φ = e^{A h},
 
-    dξ̂/dt = (A − B K) ξ̂ + L (readings − H ξ̂),    L = P Hᵀ R⁻¹,    A P + P Aᵀ − P Hᵀ R⁻¹ H P + Q = 0,
+    e⁺ = (1 − L H)(Φ e + noise of the accelerometer) − L (noise of the readings).
 
-with the densities Q that the estimator on board believes. The world is as its model has it: Q does not act, except the
-noise of an accelerometer, which drives the estimate. With e = ξ − ξ̂ the pair (ξ, e) is a linear system driven by
-white noise, whose covariance solves a Lyapunov equation. Left out are latency, sampling and rotors, with which the axis
-trembles by a seventh more.
+A command acts a delay d after its readings. Predicted from there, ξ̂ is off by e^{A d} e; so the loop is that of no
+delay, driven by e^{A d} e. Over what the lead leaves of the lag, the computer predicts as well, under its last
+command. (ξ, w, c, e) is a linear system in steps of h, whose covariance solves a Lyapunov equation. Flights tremble
+some 5 % more with motion capture, and up to a fifth more on board: forces and biases are estimated besides.
 """
 
 from __future__ import annotations
@@ -23,10 +26,10 @@ from threadpoolctl import threadpool_limits
 from flypend.geometry import E3, Numbers
 from flypend.laws import BoundLaw
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, linearise, open_loop
-from flypend.laws.lqr import solve_riccati
 from flypend.laws.references import hover
 from flypend.laws.throw import carrying
 from flypend.model import State, Vehicle, Wrench
+from flypend.plants.lag import largest_lead
 from flypend.plants.plant import AnyPlant, Sampled
 from flypend.plants.sensors import Sensors
 
@@ -34,12 +37,14 @@ KEPT = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
 PLACE = [KEPT.index(COORDINATES.index(f"x_{i}")) for i in (1, 2, 3)]
 AXIS = [KEPT.index(COORDINATES.index(f"theta_{i}")) for i in (1, 2)]
 # Largest tremor of the thrust axis, rad, RMS. Errors of the axis about two directions exceed r at one instant with
-# probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05. That
-# takes σ = 0.05/3.3 of sound rotors and sensors, and a seventh less where they are weak, late and off.
-MOST_TREMOR = 0.05 / 3.8
-SHARES = 4  # steps from the default gains to the calmest
+# probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05. With
+# σ = 0.05/3, one flight in 400 does not.
+MOST_TREMOR = 0.05 / 3
+SHARES = 8  # steps from the default gains to the calmest
 # Densities are of order 1e-8 in SI units; in these the Riccati equation is well conditioned.
 UNIT = 1e-6
+ROUNDOFF = 1e-12
+SHORTEST_LAG = 0.05  # of rotors without one, in control periods
 
 
 class Tremor(NamedTuple):
@@ -58,15 +63,15 @@ def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
         return law
     if not isinstance(plant, Sampled) or plant.sensors is None or plant.sensors.rates != "estimated":
         return law.calmed(0.0)
-    return _calm(law.calmed(0.0), plant.sensors.told, 1 / plant.rate)
+    return _calm(law.calmed(0.0), plant.sensors.told, 1 / plant.rate, plant.believed_delay)
 
 
 @lru_cache(maxsize=64)
-def _calm(law: BoundLaw, sensors: Sensors, period: float) -> BoundLaw:
+def _calm(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> BoundLaw:
     """Return `law` with the least share of calm with which it trembles by no more than `MOST_TREMOR`; else with all."""
 
     def trembles(step: int) -> bool:
-        return tremor(law.calmed(step / SHARES), sensors, period).axis > MOST_TREMOR
+        return tremor(law.calmed(step / SHARES), sensors, period, delay).axis > MOST_TREMOR
 
     if not trembles(0):
         return law
@@ -84,13 +89,16 @@ def too_noisy(law: BoundLaw, plant: AnyPlant) -> str:
     """
     if law.e3 != "up" or not isinstance(plant, Sampled) or plant.sensors is None or plant.sensors.rates != "estimated":
         return ""
-    sensors, period, calmed = plant.sensors, 1 / plant.rate, calm(law, plant)
-    assert isinstance(calmed, BoundLaw)
-    now = tremor(calmed, sensors, period).axis
+    sensors, calmed = plant.sensors, calm(law, plant)
+
+    def trembles(sensors: Sensors) -> float:
+        return tremor(calmed, sensors, 1 / plant.rate, plant.believed_delay).axis
+
+    now = trembles(sensors)
     if not MOST_TREMOR < now < np.inf:
         return ""
     halved = {
-        name: tremor(calmed, sensors.replace(**{name: replace(stream, noise=stream.noise / 2)}), period).axis
+        name: trembles(sensors.replace(**{name: replace(stream, noise=stream.noise / 2)}))
         for name, stream in sensors.streams.items()
     }
     worst = min(halved, key=halved.__getitem__)
@@ -101,44 +109,102 @@ def too_noisy(law: BoundLaw, plant: AnyPlant) -> str:
     )
 
 
-def tremor(law: BoundLaw, sensors: Sensors, period: float) -> Tremor:
-    """Return how much the vehicle of `law` trembles in hover on `sensors`, at a control `period` in s.
+def tremor(law: BoundLaw, sensors: Sensors, period: float, delay: float = 0.0) -> Tremor:
+    """Return how much the vehicle of `law` trembles in hover on `sensors`.
 
-    Infinite, if the linearised loop is not stable.
+    `period` is that of control and `delay` that from measurement to command, both in s. Infinite, if the linearised
+    loop is not stable.
     """
-    with threadpool_limits(1):  # matrices of 15 rows: threads would only wait for each other
-        return _tremor(law, sensors, period)
+    with threadpool_limits(1):  # matrices of some 40 rows: threads would only wait for each other
+        return _tremor(law, sensors, period, delay)
 
 
-def _tremor(law: BoundLaw, sensors: Sensors, period: float) -> Tremor:
-    held = law if law.along is None else law.along(carrying(hover()))
-    vehicle = law.vehicle
-    closed = linearise(held, vehicle, State(y=E3)).A[np.ix_(KEPT, KEPT)]
-    if np.max(np.linalg.eigvals(closed).real) >= 0:
+def _tremor(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> Tremor:
+    vehicle, n = law.vehicle, len(KEPT)
+    A, B = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
+    A, B = A[np.ix_(KEPT, KEPT)], B[KEPT]
+    loop, driven = _loop(law, A, B, period, delay)
+    if np.max(np.abs(np.linalg.eigvals(loop))) >= 1:
         return Tremor(np.inf, np.inf)
-    opened = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))[0][np.ix_(KEPT, KEPT)]
-    H, R = _readings(sensors, period)
-    felt, lacking = _driven(sensors, vehicle, period)
-    scaled = (H / np.sqrt(R * UNIT)[:, None]) * UNIT
-    P = solve_riccati(opened.T, scaled.T, (felt + lacking) / UNIT, np.eye(len(R))) * UNIT
-    L = P @ H.T / R
-    # ξ̇ = closed ξ + B K e and ė = (A − L H) e + noise: covariances of e, of ξ and e, and of ξ, one after the other.
-    feedback, filtered = opened - closed, opened - L @ H
-    wrong = _sylvester(filtered, filtered, L * R @ L.T + felt)
-    together = _sylvester(closed, filtered, feedback @ wrong)
-    crossed = feedback @ together.T
-    variances = np.diag(_sylvester(closed, closed, crossed + crossed.T))
+    filtered, noise = _filtered(A, sensors, vehicle, period)
+    whole = np.block([[loop, driven], [np.zeros((n, len(loop))), filtered]])
+    drive = np.zeros_like(whole)
+    drive[-n:, -n:] = noise
+    variances = np.diag(_covariance(whole, drive))
     return Tremor(*(float(np.sqrt(np.sum(variances[part]))) for part in (PLACE, AXIS)))
 
 
-def _sylvester(A: Numbers, B: Numbers, C: Numbers) -> Numbers:
-    """Return the X of A X + X Bᵀ + C = 0, all (n, n)."""
-    one = np.eye(len(A))
-    return -np.linalg.solve(np.kron(A, one) + np.kron(one, B), C.ravel()).reshape(C.shape)
+def _loop(law: BoundLaw, A: Numbers, B: Numbers, period: float, delay: float) -> tuple[Numbers, Numbers]:
+    """Return the matrix of a step of (ξ, w, c), c the last command, and how e drives it."""
+    vehicle, computer, n, one = law.vehicle, law.computer, len(A), np.eye(4)
+    held = law if law.along is None else law.along(carrying(hover()))
+    K = np.linalg.pinv(B) @ (A - linearise(held, vehicle, State(y=E3)).A[np.ix_(KEPT, KEPT)])
+    lag = max(vehicle.rotor_lag, SHORTEST_LAG * period)
+    lead = min(computer.lead, largest_lead(lag, period))
+    finds = computer.delay_reach > 0
+    predicted = delay if finds else computer.latency
+    left = lag / lead if finds and vehicle.rotor_lag and not computer.models_lag else 0.0
+    rates = np.zeros((n + 8, n + 8))
+    rates[:n, : n + 4] = np.hstack([A, B])
+    rates[n : n + 4, n:] = np.hstack([-one, one]) / lag
+    ahead, step = exponential(rates * (left + predicted - delay))[:n], exponential(rates * period)[: n + 4]
+    command = -lead * K @ ahead
+    command[:, n : n + 4] += (1 - lead) * one
+    loop = np.zeros_like(rates)
+    loop[: n + 4, : n + 4] = step[:, : n + 4]
+    loop[: n + 4] += step[:, n + 4 :] @ command
+    loop[n + 4 :] = command
+    misled = lead * K @ ahead[:, :n] @ exponential(A * predicted)
+    return loop, np.concatenate([step[:, n + 4 :] @ misled, misled])
 
 
-def _readings(sensors: Sensors, period: float) -> tuple[Numbers, Numbers]:
-    """Return H (k, n) and the densities R (k,) of the noise of the readings of `sensors`."""
+def _filtered(A: Numbers, sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:
+    """Return the matrix of a step of the estimator's error e, and the covariance of what is added to it."""
+    H, R = _readings(A, sensors, period)
+    felt, believed = _driven(sensors, vehicle, period)
+    moved, variances = exponential(A * period), R / period
+    P = _riccati(moved, H, variances / UNIT, believed * period / UNIT) * UNIT
+    L = np.linalg.solve(H @ P @ H.T + np.diag(variances), H @ P).T
+    kept = np.eye(len(A)) - L @ H
+    return kept @ moved, kept @ felt @ kept.T * period + L * variances @ L.T
+
+
+def exponential(A: Numbers) -> Numbers:
+    """Return e^A (n, n), by the Taylor series of A/2ᵏ with a norm below 1/8, squared k times."""
+    halvings = max(0, 3 + int(np.ceil(np.log2(max(float(np.linalg.norm(A, 1)), 1e-9)))))
+    part = A / 2.0**halvings
+    found = term = np.eye(len(A))
+    for k in range(1, 11):
+        term = term @ part / k
+        found = found + term
+    for _ in range(halvings):
+        found = found @ found
+    return found
+
+
+def _covariance(A: Numbers, Q: Numbers) -> Numbers:
+    """Return X = A X Aᵀ + Q by doubling, for a stable A."""
+    X = Q
+    while np.max(np.abs(A)) > ROUNDOFF:
+        X, A = X + A @ X @ A.T, A @ A
+    return X
+
+
+def _riccati(F: Numbers, H: Numbers, R: Numbers, Q: Numbers) -> Numbers:
+    """Return the P before a correction of F, H, R (k,), Q: P = F (P⁻¹ + Hᵀ R⁻¹ H)⁻¹ Fᵀ + Q.
+
+    By the structure-preserving doubling algorithm (Chu, Fan, Lin and Wang 2004): an iteration makes up for two.
+    """
+    A, G, P, change = F.T, H.T / R @ H, Q, Q
+    while np.max(np.abs(change)) > ROUNDOFF * np.max(np.abs(P)):
+        W = np.linalg.inv(np.eye(len(F)) + G @ P)
+        change = A.T @ P @ W @ A
+        A, G, P = A @ W @ A, G + A @ W @ G @ A.T, P + change
+    return (P + P.T) / 2
+
+
+def _readings(A: Numbers, sensors: Sensors, period: float) -> tuple[Numbers, Numbers]:
+    """Return H (k, n) of what is read now of an earlier ξ, and the densities R (k,) of the noise of `sensors`."""
     every = np.eye(len(COORDINATES))
     joints = every[12:14].copy()  # the rod as seen from a vehicle that turns by θ: y + y × θ
     joints[0, 7], joints[1, 6] = -1.0, 1.0
@@ -147,12 +213,14 @@ def _readings(sensors: Sensors, period: float) -> tuple[Numbers, Numbers]:
         "rod_gyro": every[14:16],
     }  # fmt: skip
     streams = {name: stream for name, stream in sensors.streams.items() if name in seen}
-    rows = np.concatenate([seen[name][:, KEPT] for name in streams])
-    return rows, np.concatenate([np.full(len(seen[n]), s.density(period)) for n, s in streams.items()])
+    rows = [seen[name][:, KEPT] @ exponential(-A * stream.latency) for name, stream in streams.items()]
+    return np.concatenate(rows), np.concatenate(
+        [np.full(len(seen[name]), stream.density(period)) for name, stream in streams.items()]
+    )
 
 
 def _driven(sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:
-    """Return the densities (n, n) that the accelerometer's noise adds to the estimate, and those that it lacks."""
+    """Return the densities (n, n) that the accelerometer's noise adds to the estimate, and those that it believes."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     on_vehicle, on_bob = np.zeros((len(COORDINATES), 3)), np.zeros((len(COORDINATES), 3))
     on_vehicle[3:6] = np.diag([1, 1, M / (M + m)])  # across the rod, the vehicle alone takes the force on it
@@ -161,4 +229,5 @@ def _driven(sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers,
     turning = np.zeros((len(COORDINATES), 3))
     turning[9:12] = np.eye(3)
     v, b, w = (G[KEPT] @ G[KEPT].T for G in (on_vehicle, on_bob, turning))
-    return sensors.felt(period) * v, sensors.force_error**2 * (v + b) + sensors.moment_error**2 * w
+    of_vehicle, of_bob = sensors.lacking(period, 0.0)
+    return sensors.felt(period) * v, of_vehicle * v + of_bob * b + sensors.moment_error**2 * w

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.board.believed import Believed
-from flypend.board.estimator import delay_of
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
@@ -70,7 +69,7 @@ def pieces_structure(plant: Sampled) -> Sampled:
     if sensors is None:
         noise = noise or Noise()
     else:
-        sensors = sensors.replace(command_delay=delay_of(plant))
+        sensors = sensors.replace(command_delay=plant.believed_delay)
         if {"untold_latency", "latency_jitter"} & set(sensors.adjustable):
             longest = max(sensors.untold_latency, LONGEST_SHIFT - sensors.latency_jitter)
             sensors = sensors.replace(untold_latency=longest)

@@ -75,6 +75,14 @@ class SteppedBoard:
 
     def command(self, t: float, measured: Numbers) -> Numbers:
         """Return the command at time `t` (s) for the `measured` state (24,), e₃-up frame, or readings of sensors."""
+        return self.trim(self.ask(t, measured))
+
+    def trim(self, command: Numbers) -> Numbers:
+        """Return what is to be sent for the last `command` that was asked for."""
+        return self._stages.trim(self._memory, command, NONE)
+
+    def ask(self, t: float, measured: Numbers) -> Numbers:
+        """As `command`, before it is trimmed."""
         stages, outside, told = self._stages, None, []
         if stages.estimating is not None:
             self.filtered, measured, outside = stages.estimating.correct(self._expecting, measured, NONE)
@@ -87,7 +95,7 @@ class SteppedBoard:
         if stages.estimating is not None:
             self._expecting = stages.estimating.advance(self.filtered, outside, command, self._memory)
         self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
-        return stages.trim(self._memory, command, NONE)
+        return command
 
 
 class _Estimating(NamedTuple):

@@ -111,7 +111,9 @@ class DelayEstimator:
         expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
         wrong = (omega - before) / h - expected
         slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
-        trim = trimming.follow(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], begun, h, b.vehicle)
+        apart = [self._wrench(forces)[1:] - acting[1:] for forces in (entries[:, 0], entries[:, -1])]
+        spread = sum(ca.sumsqr(ca.mtimes(b.vehicle.I_inv, moment)) for moment in apart)
+        trim = trimming.follow(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], spread, begun, h, b.vehicle)
         share = -np.expm1(-BAND / self._longest * h)
         smooth = smooth + share * (begun * ca.vertcat(wrong + slope * delay, slope) - smooth)
         smoother = smoother + share * (smooth - smoother)

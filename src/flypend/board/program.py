@@ -212,7 +212,8 @@ def board(
         measured = ca.vertcat(measurement[0], state)
     estimated = [outside] if filters(loop.sampled) else []
     kept, forces, state, rotors, horizon = predict(memory, measured, params, *estimated)
-    # CasADi returns a call whose value is always 0 as a sparse vector, which would leave the last command in place.
+    # CasADi returns a call whose value is always 0 as a sparse vector, which would leave the last command in place; so
+    # does `trimming`.
     given = ca.densify(command(measured[0], horizon, state, rotors, forces, path, gains, params))
     after = remember(memory, kept, measured, forces, given, params)
     if made.estimator is not None:
@@ -220,7 +221,7 @@ def board(
         carry = made.estimator.carry()
         after = ca.vertcat(after, carry(corrected, outside, commands[: carry.size1_in(2)], params))
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
-    sent = trimming(made)(after[: made.own.length], given, params)
+    sent = ca.densify(trimming(made)(after[: made.own.length], given, params))
     return ca.Function("board", [whole, measurement, path, gains, params], [after, sent], *names)
 
 

@@ -34,19 +34,26 @@ RECORD = Record(
 # a first estimate takes a fifth of a second; a small vehicle with a centre of mass that is off falls over as fast.
 # With 0.5 s, rotors that spin up slowly are taken for a trim in each flip: 5 to 10 % of such flights miss a catch.
 FORGETTING, DOUBT = 1.5, 0.2
+# While moments change, what is measured depends on the delay, of which the flight computer is not sure: in a flip it
+# hardly counts. It counts half if moments differ by this share of the largest within the delays that there may be.
+STEADY = 0.1
 # Largest trim, as a share of the largest moment per weight: with more, there is nothing left to steer with.
 MOST = 0.5
 
 
-def follow(memory: Numbers, lacking: Vector, thrust: Scalar, fresh: Scalar, period: float, vehicle: Any) -> Numbers:
+def follow(
+    memory: Numbers, lacking: Vector, thrust: Scalar, spread: Scalar, fresh: Scalar, period: float, vehicle: Any
+) -> Numbers:
     """Return the memory (4,) after a `period` (s) in which a moment `lacking` (3,), N m, was seen beyond the model.
 
-    `thrust` is the mean f, N, and `fresh` 1 if anything was measured, else 0.
+    `thrust` is the mean f, N, `spread` how far the modelled angular acceleration differs, squared, (rad/s²)², if the delay
+    is another, and `fresh` 1 if anything was measured, else 0.
     """
-    trim = RECORD.split(memory)
-    weighed = np.exp(-period / FORGETTING) * trim["weighed"] + period * thrust**2
-    gain = fresh * period * thrust / (weighed + DOUBT * vehicle.weight**2)
-    most = MOST * angular_authority(vehicle) * vehicle.I[0, 0] / vehicle.weight
+    trim, authority = RECORD.split(memory), angular_authority(vehicle)
+    share = fresh / (1 + spread / (STEADY * authority) ** 2)
+    weighed = np.exp(-period / FORGETTING) * trim["weighed"] + share * period * thrust**2
+    gain = share * period * thrust / (weighed + DOUBT * vehicle.weight**2)
+    most = MOST * authority * vehicle.I[0, 0] / vehicle.weight
     lever = ca.fmin(ca.fmax(trim["lever"] + gain * lacking, -most), most)
     return RECORD.join({"lever": lever, "weighed": weighed})
 

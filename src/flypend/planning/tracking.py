@@ -72,7 +72,7 @@ class Boards(ABC):
     def command(self, t: float, measured: Any) -> Array:
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
         self._measured = t, measured
-        found: Array = self._for_plan.command(t, measured)
+        found: Array = self._for_law.trim(self._for_plan.ask(t, measured))
         return found
 
     @abstractmethod
@@ -84,7 +84,7 @@ class Boards(ABC):
 
     def _steer(self, *predicted: Any) -> Array:
         self._given = self.planned(*predicted)
-        found: Array = self._for_law.command(*self._measured)
+        found: Array = self._for_law.ask(*self._measured)
         return found
 
     def _or_law(self, t: float, state: Array, rotors: Array, forces: Array) -> Array:

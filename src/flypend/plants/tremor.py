@@ -44,6 +44,7 @@ SHARES = 8  # steps from the default gains to the calmest
 # Densities are of order 1e-8 in SI units; in these the Riccati equation is well conditioned.
 UNIT = 1e-6
 ROUNDOFF = 1e-12
+LEAST_NOISE = 1e-16  # density of readings, SI: 1e-7 at 100 Hz; below it the Riccati equation is ill conditioned
 SHORTEST_LAG = 0.05  # of rotors without one, in control periods
 
 
@@ -215,7 +216,7 @@ def _readings(A: Numbers, sensors: Sensors, period: float) -> tuple[Numbers, Num
     streams = {name: stream for name, stream in sensors.streams.items() if name in seen}
     rows = [seen[name][:, KEPT] @ exponential(-A * stream.latency) for name, stream in streams.items()]
     return np.concatenate(rows), np.concatenate(
-        [np.full(len(seen[name]), stream.density(period)) for name, stream in streams.items()]
+        [np.full(len(seen[name]), max(stream.density(period), LEAST_NOISE)) for name, stream in streams.items()]
     )
 
 

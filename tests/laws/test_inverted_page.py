@@ -91,7 +91,7 @@ def _target(force, tilt, share):
 
 
 def test_constant_and_tilt_limit_keep_the_target_off_zero_and_neither_does_alone():
-    share, tilt = told(r"plus ([\d.]+) weights of e₃\.")[0], told(r"tilted no further than ([\d.]+) rad")[0]
+    share, tilt = told(r"plus ([\d.]+) weights of \$e_3\$\.")[0], told(r"keeps it within ([\d.]+) rad of")[0]
     # The nearest point of the edge of the cone is 24 times as deep as it is off the axis.
     levels, depths = np.linspace(0, 2e-3, 101), np.linspace(-0.1, 0.02, 241)
     lengths = [geo.norm(_target([level, 0, depth], tilt, share)) for level in levels for depth in depths]

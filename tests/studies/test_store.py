@@ -187,6 +187,7 @@ def run_limited(folder, *, limit):
     command = [sys.executable, "-m", "flypend", "sweep", "study.toml", "-o", "a.zarr", "--workers", "1"]
     return subprocess.run(
         command, cwd=folder, capture_output=True, text=True, timeout=60, check=False,
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},  # byte code that is cut off would stay
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
     )  # fmt: skip
 

@@ -459,7 +459,7 @@ def test_a_slow_computer_plans_less_and_stands():
     run, flown = flown_by(fp.nmpc(computing=0.02), STARTS[1], 8.0)
     assert fp.metrics(run).success
     # 76 iterations of guesses, each 0.7 of what is charged.
-    assert flown.changes[0][0] == pytest.approx(1.064, abs=2.1 * LEAST_DELAY)
+    assert flown.changes[0][0] == pytest.approx(1.064, abs=1e-5)  # and the delay that is found, a few µs
 
 
 def test_a_computer_too_slow_for_any_plan_flies_the_law():

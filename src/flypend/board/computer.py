@@ -81,6 +81,12 @@ class SteppedBoard:
         """Return what is to be sent for the last `command` that was asked for."""
         return self._stages.trim(self._memory, command, NONE)
 
+    def take_trim(self, other: SteppedBoard) -> None:
+        """Go on with the trim of the board `other`, by which the last command was sent."""
+        if self._stages.made.finding is not None and other._stages.made.finding is not None:
+            mine, theirs = (board._stages.made.own.place("delay.trim.lever") for board in (self, other))
+            self._memory[mine] = other._memory[theirs]
+
     def ask(self, t: float, measured: Numbers) -> Numbers:
         """As `command`, before it is trimmed."""
         stages, outside, told = self._stages, None, []

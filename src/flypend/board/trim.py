@@ -36,7 +36,7 @@ RECORD = Record(
 FORGETTING, DOUBT = 1.5, 0.2
 # While moments change, what is measured depends on the delay, of which the flight computer is not sure: in a flip it
 # hardly counts. It counts half if moments differ by this share of the largest within the delays that there may be.
-STEADY = 0.1
+STEADY = 0.05
 # Largest trim, as a share of the largest moment per weight: with more, there is nothing left to steer with.
 MOST = 0.5
 
@@ -46,8 +46,8 @@ def follow(
 ) -> Numbers:
     """Return the memory (4,) after a `period` (s) in which a moment `lacking` (3,), N m, was seen beyond the model.
 
-    `thrust` is the mean f, N, `spread` how far the modelled angular acceleration differs, squared, (rad/s²)², if the delay
-    is another, and `fresh` 1 if anything was measured, else 0.
+    `thrust` is the mean f, N, `spread` the square of how far the modelled angular acceleration differs if the delay is
+    another, (rad/s²)², and `fresh` 1 if anything was measured, else 0.
     """
     trim, authority = RECORD.split(memory), angular_authority(vehicle)
     share = fresh / (1 + spread / (STEADY * authority) ** 2)

@@ -72,7 +72,12 @@ class Boards(ABC):
     def command(self, t: float, measured: Any) -> Array:
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
         self._measured = t, measured
-        found: Array = self._for_law.trim(self._for_plan.ask(t, measured))
+        command = self._for_plan.ask(t, measured)
+        flies, other = self._for_law, self._for_plan
+        if self._given is not None:
+            flies, other = other, flies
+        other.take_trim(flies)
+        found: Array = flies.trim(command)
         return found
 
     @abstractmethod

@@ -208,6 +208,21 @@ def test_40_terminations_of_nmpc_flights(prepared):
     print(f"40 SIGTERMs in flights of nmpc, by exit code: {found}; the slowest ended after {took:.2f} s ({where})")
 
 
+def test_a_signal_at_the_end_of_the_interpreter_comes_too_late():
+    """It had undone the handlers, and a process that had done its work was killed."""
+    code = """
+import os, signal
+from flypend import signals
+signals.install()
+class Last:
+    kill, process, number = os.kill, os.getpid(), signal.SIGINT
+    def __del__(self):
+        self.kill(self.process, self.number)
+last = Last()
+"""
+    assert subprocess.run([sys.executable, "-c", code], timeout=60, check=False).returncode == 0
+
+
 # Streams --------------------------------------------------------------------------------------------------------------
 
 NOWHERE = "flypend: stdout: expected a file that can be written, got "

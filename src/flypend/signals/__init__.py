@@ -11,6 +11,7 @@ Kernels read the word by its address. Nothing here imports NumPy: the command li
 
 from __future__ import annotations
 
+import atexit
 import os
 import select
 import signal
@@ -99,7 +100,14 @@ def install() -> None:
     for number in NUMBERS:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _set)
+    atexit.register(_ignore)
     sys.meta_path.insert(0, _Imports)
+
+
+def _ignore() -> None:
+    """Ignore signals while the interpreter ends, which undoes handlers: the process has done its work."""
+    for number in NUMBERS:
+        signal.signal(number, signal.SIG_IGN)
 
 
 def watch() -> None:

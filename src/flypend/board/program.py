@@ -212,8 +212,8 @@ def board(
         measured = ca.vertcat(measurement[0], state)
     estimated = [outside] if filters(loop.sampled) else []
     kept, forces, state, rotors, horizon = predict(memory, measured, params, *estimated)
-    # CasADi returns a call whose value is always 0 as a sparse vector, which would leave the last command in place; so
-    # does `trimming`.
+    # CasADi returns a call whose value is always 0 as a sparse vector, which would leave the last command in place:
+    # this one, and that of `trimming`.
     given = ca.densify(command(measured[0], horizon, state, rotors, forces, path, gains, params))
     after = remember(memory, kept, measured, forces, given, params)
     if made.estimator is not None:

@@ -73,10 +73,9 @@ class Boards(ABC):
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
         self._measured = t, measured
         command = self._for_plan.ask(t, measured)
-        flies, other = self._for_law, self._for_plan
-        if self._given is not None:
-            flies, other = other, flies
-        other.take_trim(flies)
+        by_law = self._given is None
+        flies, other = (self._for_law, self._for_plan) if by_law else (self._for_plan, self._for_law)
+        other.take_trim(flies)  # of what is sent there is one trim
         found: Array = flies.trim(command)
         return found
 

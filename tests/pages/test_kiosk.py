@@ -129,7 +129,7 @@ def test_the_address_is_a_code_that_a_phone_reads(visit, axe, node_modules):
     ).stdout
     assert read == page.evaluate("location.href")
     page.locator(".sheet .close").click()
-    assert page.locator(".sheet").count() == 0
+    page.locator(".sheet").wait_for(state="detached")  # a dialog tells of its end in a later task
 
 
 @pytest.mark.parametrize("live", [False, True])

@@ -19,6 +19,7 @@ from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import ideal_problem
 from flypend.flight.request import Flight, Tolerances
 from flypend.flight.sampled import fly_stepwise
+from flypend.model.rod import uniform_rod
 from flypend.plants import Ideal, Noise, Plant, Wind
 from flypend.plants.loop import Loop
 
@@ -407,6 +408,27 @@ def test_lag_noise_and_wind_are_inputs_of_one_machine_code():
         assert sampled_kernel(Loop(HEHN, INVERTED, plant), Criterion()).function is not one.function
         with pytest.raises(ValueError, match="same structure"):
             one.through(plant)
+
+
+@pytest.mark.parametrize("centre_of_mass", [(0.0, 0.0, 0.0), (0.003, -0.002, 0.001)], ids=["centred", "off"])
+def test_machines_share_machine_code_and_each_flies_as_in_python(centre_of_mass):
+    vehicle = HEHN.replace(**uniform_rod(0.05, 1.0))
+    law, nominal = fp.laws.inverted().bind(vehicle), Plant(rate=200.0, centre_of_mass=centre_of_mass)
+    ratios = {"mass": 1.1, "bob_mass": 0.8, "rod_length": 0.9, "rod_inertia": 0.7, "inertia": 1.2, "drag_ratio": 1.3}
+    wrong = [nominal.replace(mismatch={name: ratio}) for name, ratio in ratios.items()]
+    wrong += [nominal.replace(mismatch=ratios), nominal.replace(sag=0.1, strength=(1.0, 0.9, 1.1, 1.0))]
+    starts, ticks = fp.State.random(np.random.default_rng(4), 2), np.arange(61)
+    kernels = [sampled_kernel(Loop(vehicle, law, plant), Criterion()) for plant in wrong]
+    assert {kernel.function for kernel in kernels} == {kernels[0].function}
+    assert sampled_kernel(Loop(vehicle, law, nominal), Criterion()).function is not kernels[0].function
+    ends = set()
+    for plant, kernel in zip(wrong, kernels, strict=True):
+        flown = kernel.fly(starts.packed(), 0.3, judge_at=ticks, keep_at=ticks)
+        ends.add(flown.final.tobytes())
+        flight = Flight(vehicle=vehicle, law=law, starts=starts, duration=0.3, plant=plant)
+        expected = fly_stepwise(flight.member(1)).packed
+        np.testing.assert_allclose(flown.samples[1, :, :24], expected, rtol=0, atol=1e-9)
+    assert len(ends) == len(wrong)
 
 
 def filler_of_the_stack(length=320_000):

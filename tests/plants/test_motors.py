@@ -21,7 +21,8 @@ ENGINES = pytest.mark.parametrize("engine", ["equations", "mujoco"])
 
 def settled(command, plant):
     u = ca.SX.sym("u", 4)
-    return as_numpy(ca.Function("delivered", [u], [settle_forces(u, VEHICLE, plant)]))(np.asarray(command, dtype=float))
+    delivered = ca.Function("delivered", [u], [settle_forces(u, MOST, plant.strength, plant.sag)])
+    return as_numpy(delivered)(np.asarray(command, dtype=float))
 
 
 def rotors_after(command, begin, duration, plant, steps=1):

@@ -23,7 +23,7 @@ from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop, rotor_forces
 from flypend.plants.equations import step_state
 from flypend.plants.lag import symbolic_timing
-from flypend.plants.motors import motor_timing, moving, timing_size
+from flypend.plants.motors import motor_timing, moving, settle_forces, timing_size
 from flypend.plants.plant import LONGEST_DELAY, Sampled
 from flypend.plants.sensors import sensors_called
 
@@ -229,9 +229,10 @@ class Parts:
         s, r, u, w, h = (
             ca.SX.sym(name, size) for name, size in zip("sruwh", (SIZE, n, n, 6, self.timing), strict=True)
         )
-        commanded = p[3:] * u if self.numbers else u
+        plant, commanded = moving(env.plant), p[3:] * u if self.numbers else u
+        settled = settle_forces(commanded, vehicle.rotor_limits[1], plant.strength, plant.sag)
         wind = w if env.randomise.wind[1] > 0 else None
-        return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, commanded, wind, h, vehicle, moving(env.plant)))
+        return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, settled, wind, h, vehicle, plant))
 
     def _moment(self, change: Any, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
         """Symbols of time and memory, what they say, and the parts of the memory, with the `change` of the action.

@@ -12,6 +12,7 @@ from flypend import errors
 from flypend.envs.draws import Draws
 from flypend.errors import InputError
 from flypend.model import Vehicle
+from flypend.plants.machine import Machine
 
 Interval = tuple[float, float]
 LEAST = 0.05  # of a ratio that a band leaves open downwards
@@ -90,7 +91,7 @@ class Randomisation:
         return cls(**found)
 
 
-class Varied:
+class Varied(Machine):
     """`vehicle` with masses, rod and strengths scaled by symbols; what it does not scale is the vehicle's own.
 
     Parameters
@@ -102,16 +103,11 @@ class Varied:
     """
 
     def __init__(self, vehicle: Vehicle, numbers: Any) -> None:
-        self._vehicle = vehicle
         mass, bob, length = numbers[0], numbers[1], numbers[2]
         # The rod's inertia scales with its mass and the square of its length, so the share of the point bob stays.
-        at_pivot = vehicle.M - vehicle.mass
-        self.bob_mass = bob * vehicle.bob_mass
-        self.M, self.m, self.l = mass * vehicle.mass + bob * at_pivot, bob * vehicle.m, length * vehicle.l
-        self.I, self.I_inv = mass * vehicle.I, vehicle.I_inv / mass
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._vehicle, name)
+        own, at_pivot = mass * vehicle.mass, bob * (vehicle.M - vehicle.mass)
+        equivalent = (own + at_pivot, bob * vehicle.m, length * vehicle.l)
+        super().__init__(vehicle, own, bob * vehicle.bob_mass, *equivalent, mass, vehicle.drag_ratio)
 
     @staticmethod
     def drawn(vehicle: Vehicle, ranges: Randomisation, draws: Draws) -> Any:

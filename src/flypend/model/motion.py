@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import casadi as ca
 import numpy as np
 
 from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale
@@ -139,7 +140,8 @@ def _of_rigid_body(
     back = _transpose(state.R)
     pushed = apply(back, on_vehicle) + scale(wrench.thrust, E3)
     moment = wrench.moment - cross(share * o, pushed) + cross((1 - share) * o, apply(back, at_pivot))
-    return (1 - share) * o, I, np.linalg.inv(I), moment, on_vehicle + at_pivot, on_bob
+    inverse = ca.inv_minor(I) if is_symbolic(I) else np.linalg.inv(I)
+    return (1 - share) * o, I, inverse, moment, on_vehicle + at_pivot, on_bob
 
 
 def _transpose(R: Matrix) -> Matrix:

@@ -17,6 +17,7 @@ from flypend.model.joint import friction
 from flypend.model.motion import Disturbance, disturbed_motion
 from flypend.model.rod import share_out
 from flypend.model.state import SIZE, project_symbolic
+from flypend.plants import machine
 from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import Ramp
 from flypend.plants.motors import follow, motor_timing, moving, settle_forces, timing_size
@@ -56,7 +57,9 @@ def _compile_step(vehicle: Vehicle, plant: Plant, windy: bool) -> Callable[..., 
     return single(rotor_step(vehicle, plant, windy=windy))
 
 
-def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, name: str = "rotor_step") -> ca.Function:
+def rotor_step(
+    vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, any_machine: bool = False, name: str = "rotor_step"
+) -> ca.Function:
     """One step (state, rotors, command, wind, timing) → (state, rotors) of `vehicle` as a CasADi function.
 
     The rotor forces follow the command as an exact first-order lag with the time constant of the vehicle; for `timing`
@@ -68,24 +71,30 @@ def rotor_step(vehicle: Vehicle, plant: Plant = ROTORS, *, windy: bool = True, n
         As in `EquationsEngine`.
     windy : bool
         Whether there is wind; the input `wind` is ignored otherwise.
+    any_machine : bool
+        Whether `timing` ends with the numbers of the machine (see `machine_numbers`), in place of those of `vehicle`.
     name : str
         Name of the function.
     """
     n = len(vehicle.rotor_spins)
     packed, rotors, command = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("u", n)
     wind, timing = ca.SX.sym("w", 6), ca.SX.sym("h", timing_size(plant))
-    outputs = step_state(packed, rotors, command, wind if windy else None, timing, vehicle, plant)
-    return ca.Function(name, [packed, rotors, command, wind, timing], outputs)
+    own, motors = ca.SX.sym("machine", machine.SIZE * any_machine), ca.SX.sym("motors", (n + 1) * any_machine)
+    flown: Any = machine.Machine(vehicle, *ca.vertsplit(own)) if any_machine else vehicle
+    strength, sag = (motors[:n], motors[n]) if any_machine else (plant.strength, plant.sag)
+    settled = settle_forces(command, vehicle.rotor_limits[1], strength, sag)
+    outputs = step_state(packed, rotors, settled, wind if windy else None, timing, flown, plant)
+    return ca.Function(name, [packed, rotors, command, wind, ca.vertcat(timing, own, motors)], outputs)
 
 
 def step_state(
-    packed: Numbers, rotors: Numbers, command: Numbers, wind: Numbers, timing: Numbers, vehicle: Vehicle, plant: Plant
+    packed: Numbers, rotors: Numbers, settled: Numbers, wind: Numbers, timing: Numbers, vehicle: Vehicle, plant: Plant
 ) -> list[Numbers]:
     """Return state and rotor forces after the step of `rotor_step`; without wind, `wind` is None.
 
-    The numbers of `vehicle` may be symbolic.
+    `settled` are the forces (n,), N, to which the rotors tend. The numbers of `vehicle` may be symbolic.
     """
-    forces, after = follow(rotors, settle_forces(command, vehicle, plant), timing)
+    forces, after = follow(rotors, settled, timing)
     outside = wind
     if plant.in_air(vehicle) or not vehicle.free_joint:
         moved = runge_kutta_step(packed, forces, outside, timing[0], vehicle, plant)

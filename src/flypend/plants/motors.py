@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Numbers, Scalar
-from flypend.model import Vehicle
+from flypend.geometry import Numbers, Scalar, is_symbolic
 from flypend.plants.lag import TIMING_SIZE, Ramp, hold, step_timing
 from flypend.plants.plant import Plant
 
@@ -24,19 +24,21 @@ def moving(plant: Plant) -> Plant:
     return Plant(**{each.name: getattr(plant, each.name) for each in fields(plant) if each.name not in BESIDE})
 
 
-def settle_forces(command: Numbers, vehicle: Vehicle, plant: Plant) -> Numbers:
+def settle_forces(command: Numbers, most: float, strength: Any, sag: Scalar) -> Numbers:
     """Return the forces (n,), N, at which rotors settle under a `command` (n,), N, in CasADi; itself if unchanged.
 
+    `most` is the largest command, N; `strength` and `sag` are as in `Plant`, and may be symbols.
+
     At a given throttle the speed of a rotor is proportional to the voltage V, its force to V², and the current of all
-    to their power, Σ f^(3/2). So the share `plant.sag` of the voltage is lost at maximum command of all rotors:
+    to their power, Σ f^(3/2). So the share `sag` of the voltage is lost at maximum command of all rotors:
 
         (V/V₀)² u_i,   V/V₀ = 1 − sag · mean of (u_i/u_max)^(3/2)
     """
-    if plant.sag > 0:
-        command = sag_forces(command, vehicle.rotor_limits[1], plant.sag)
-    if plant.strength != 1.0:
-        command = ca.DM(np.broadcast_to(plant.strength, (command.numel(),))) * command
-    return command
+    if is_symbolic(sag) or sag > 0:
+        command = sag_forces(command, most, sag)
+    if is_symbolic(strength):
+        return strength * command
+    return command if strength == 1.0 else ca.DM(np.broadcast_to(strength, (command.numel(),))) * command
 
 
 def sag_forces(command: Numbers, most: Scalar, sag: Scalar) -> Numbers:

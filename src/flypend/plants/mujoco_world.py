@@ -38,7 +38,7 @@ def motors(vehicle: Vehicle, plant: Plant) -> ca.Function | None:
     """
     n = len(vehicle.rotor_spins)
     command, rotors, numbers = ca.SX.sym("u", n), ca.SX.sym("r", n), ca.SX.sym("h", STEP_NUMBERS)
-    target = settle_forces(command, vehicle, plant)
+    target = settle_forces(command, vehicle.rotor_limits[1], plant.strength, plant.sag)
     if target is command and plant.spin_up == 1.0:
         return None
     return ca.Function(

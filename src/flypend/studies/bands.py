@@ -14,7 +14,7 @@ from flypend.model import Vehicle
 from flypend.plants import Sampled, as_sampled
 from flypend.studies.compare import fly_each, joined, shared
 
-DRAWS = 8  # each is compiled
+DRAWS = 8
 LEAST = 1e-3  # factor of a number whose band begins at zero
 
 

@@ -33,7 +33,7 @@ LIMITS = {"sag": MOST_SAG, "delay": LONGEST_DELAY}  # beyond which there is no p
 JOINTS_OFF = float(np.radians(0.5))  # zeros of encoders, as the angles of the suite "laboratory"
 SCALES = (1.0, 2.0, 4.0)  # of all errors together, until success drops below LEAST_RATE
 SHARES = (0.5, 0.25, 0.125, 0.0)  # of an error that is calibrated
-DRAWS = 6  # vehicles drawn from the bands; each is compiled
+DRAWS = 6  # vehicles drawn from the bands
 # Random starts of all draws together and of one variant, and both where flights are slow.
 RUNS, VARIANT_RUNS, SLOW_RUNS = 384, 48, 6
 DURATION = 12.0  # s; three times what 95 % of the random starts need

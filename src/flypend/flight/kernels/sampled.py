@@ -6,6 +6,7 @@ import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import chain
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -38,8 +39,9 @@ from flypend.plants.defect_program import size_numbers
 from flypend.plants.defects import blank
 from flypend.plants.equations import rotor_step
 from flypend.plants.loop import Loop
+from flypend.plants.machine import as_believed, is_wrong, machine_numbers
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
-from flypend.plants.motors import motor_timing, timing_size
+from flypend.plants.motors import motor_timing
 from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, from_mujoco, substeps
 from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surroundings
 from flypend.plants.noise import Noise
@@ -96,7 +98,7 @@ class SampledKernel:
     def through(self, plant: Plant) -> SampledKernel:
         """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
         other = replace(self.loop, plant=plant)
-        if structure(plant) != structure(self.loop.sampled) or _mujoco_filters(other) != _mujoco_filters(self.loop):
+        if _compiled(other) != _compiled(self.loop) or _mujoco_filters(other) != _mujoco_filters(self.loop):
             raise ValueError("a plant of the same structure is needed")
         return replace(self, loop=other)
 
@@ -204,16 +206,31 @@ def _without_lag(plant: Plant) -> dict[str, float]:
     return {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
 
 
+def any_machine(loop: Loop) -> bool:
+    """Whether the numbers of the machine are inputs of the machine code of `loop`: where they are not those believed.
+
+    Not in MuJoCo, whose model has them, nor where something touches, which depends on them.
+    """
+    return loop.sampled.engine == "equations" and not loop.touches and is_wrong(loop.sampled)
+
+
+def _compiled(loop: Loop) -> tuple[Plant, bool]:
+    """Return the `structure` of the plant of `loop`, and whether it is for `any_machine`."""
+    common = any_machine(loop)
+    return structure(as_believed(loop.sampled) if common else loop.sampled), common
+
+
 def plant_numbers(loop: Loop) -> Numbers:
     """Return the plant parameters that the machine code inputs, in the order of `SampledProblem.inputs`."""
     plant = loop.sampled
     true = plant.true_vehicle(loop.vehicle)
     period = 1 / plant.rate
-    timings = [_timing(true, plant, while_ / steps) for _, while_, steps in _segments(plant)]
+    machine = [machine_numbers(loop.vehicle, plant)] if any_machine(loop) else []
+    timings = [[_timing(true, plant, while_ / steps), *machine] for _, while_, steps in _segments(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
     noise += [] if plant.sensors is None else [size_numbers(plant.sensors, period)]
     wind = [] if plant.wind is None else [wind_numbers(plant.wind, period)]
-    return np.concatenate([*timings, *noise, *wind])
+    return np.concatenate([*chain.from_iterable(timings), *noise, *wind])
 
 
 def _timing(true: Vehicle, plant: Plant, duration: float) -> Numbers:
@@ -246,11 +263,12 @@ def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
     InputError
         If a gain is unknown, or the law has operations that cannot be compiled.
     """
-    compiled = structure(loop.sampled)
+    compiled, common = _compiled(loop)
     if loop.sampled.engine == "mujoco":
         # Rotors with a lag, whatever it is, are MuJoCo's filters; those without are not.
         compiled = compiled.replace(lag=float(_is_filtered(loop)))
-    return _structure(replace(loop, plant=compiled), criterion).through(loop.sampled)
+    made = _structure(replace(loop, plant=compiled), criterion, common)
+    return replace(made, loop=loop)
 
 
 def _is_filtered(loop: Loop) -> bool:
@@ -263,8 +281,8 @@ def _mujoco_filters(loop: Loop) -> bool:
 
 
 @lru_cache(maxsize=64)
-def _structure(loop: Loop, criterion: Criterion) -> SampledKernel:
-    problem = sampled_problem(loop, criterion)
+def _structure(loop: Loop, criterion: Criterion, common: bool) -> SampledKernel:
+    problem = sampled_problem(loop, criterion, any_machine=common)
     width = WIDTH if isinstance(problem.world, EquationsProblem) else 1
     key, module = write_sampled(problem, width)
     return SampledKernel(loop, criterion, jit.build(key, module, "kernel", ARGUMENT_KINDS), key)
@@ -278,18 +296,24 @@ def write_sampled(
     return key, lambda: kernel_module(problem, width, target)
 
 
-def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None = None) -> SampledProblem:
-    """Return the flights of `loop` and `criterion` as programs; `believed` as in `flypend.board.program.board`."""
+def sampled_problem(
+    loop: Loop, criterion: Criterion, believed: Believed | None = None, *, any_machine: bool = False
+) -> SampledProblem:
+    """Return the flights of `loop` and `criterion` as programs.
+
+    `believed` is as in `flypend.board.program.board`, `any_machine` as in `rotor_step`.
+    """
     vehicle, plant = loop.vehicle, loop.sampled
     true = plant.true_vehicle(vehicle)
     rates = plant.interface == "rates"
     world: EquationsProblem | MujocoProblem
     if plant.engine == "equations":
-        world = EquationsProblem(lower(rotor_step(true, plant, windy=plant.wind is not None, name="world")))
+        step = rotor_step(true, plant, windy=plant.wind is not None, any_machine=any_machine, name="world")
+        world, timing = EquationsProblem(lower(step)), step.numel_in(4)
     else:
         seen = lower(from_mujoco(len(vehicle.rotor_spins)))
         effects = [None if f is None else lower(f) for f in (motors(true, plant), surroundings(true, plant))]
-        world = MujocoProblem(seen, _is_filtered(loop), MAX_FORCE, *effects)
+        world, timing = MujocoProblem(seen, _is_filtered(loop), MAX_FORCE, *effects), 1 + STEP_NUMBERS
     on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
     return SampledProblem(
         board=lower_calls(board(loop, believed)),
@@ -301,7 +325,7 @@ def sampled_problem(loop: Loop, criterion: Criterion, believed: Believed | None 
         judge=lower(_judge(loop, criterion)),
         reductions=JUDGED,
         flown=tuple(Stretch(age, steps) for age, _, steps in _segments(plant)),
-        timing=timing_size(plant) if plant.engine == "equations" else 1 + STEP_NUMBERS,
+        timing=timing,
         period=1 / plant.rate,
         random=is_random(plant),
         sensing=_sensing(loop) if plant.sensors is not None else None,

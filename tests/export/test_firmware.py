@@ -22,7 +22,22 @@ from benchmarks.firmware.__main__ import (
     strayed,
 )
 from benchmarks.firmware.built import FLAGS, searched
-from benchmarks.firmware.loop import APP, CUT, HOME, HOST, LANDING, LAW, OWN, PID, TICK, Vehicle, carried, states
+from benchmarks.firmware.loop import (
+    APP,
+    CUT,
+    FALLING,
+    HOME,
+    HOST,
+    LANDING,
+    LAW,
+    OWN,
+    PID,
+    TICK,
+    Vehicle,
+    carried,
+    fall,
+    states,
+)
 
 
 @pytest.fixture(scope="module")
@@ -171,3 +186,22 @@ def test_the_rig_moves_as_its_rates_say():
         assert np.allclose((after.y - before.y) / 2e-3, now.y_dot, atol=1e-4)
         spin = now.R.T @ (after.R - before.R) / 2e-3
         assert np.allclose([spin[2, 1], spin[0, 2], spin[1, 0]], now.omega, atol=1e-3)
+
+
+def test_the_fall_goes_through_the_start_and_no_force_acts_but_weight():
+    """Needs no firmware. The centre of mass falls with g, the vehicle's spin stays, and the rod's rate is its rate."""
+    vehicle, start = fp.vehicle("crazyflie"), fp.State.random(np.random.default_rng(3), 1)[0]
+    path = fall(vehicle, start)
+    middle, share = round(FALLING / TICK), vehicle.m / (vehicle.M + vehicle.m)
+    assert path[middle] is start
+    centre = np.array([state.x + share * vehicle.l * state.y for state in path])
+    t = (np.arange(len(path)) - middle) * TICK
+    velocity = start.x_dot + share * vehicle.l * start.y_dot
+    gone = centre[middle] + np.outer(t, velocity) - 0.5 * vehicle.gravity * np.outer(t**2, (0, 0, 1))
+    assert np.abs(centre - gone).max() < 1e-6
+    for before, now, after in zip(path[:-2], path[1:-1], path[2:], strict=True):
+        assert np.allclose((after.y - before.y) / (2 * TICK), now.y_dot, atol=1e-3)
+        spin = now.R.T @ (after.R - before.R) / (2 * TICK)
+        assert np.allclose([spin[2, 1], spin[0, 2], spin[1, 0]], now.omega, atol=1e-3)
+    spins = np.array([state.R @ vehicle.inertia @ state.omega for state in path])
+    assert np.abs(spins - spins[middle]).max() < 1e-6 * np.linalg.norm(spins[middle])

@@ -183,7 +183,7 @@ DISARM = 4.0  # s after which the host script disarms a vehicle that it told to 
 def happen(
     name: str, library: Path, vehicle: fp.Vehicle, *, instead: int | None = None, after: float = AFTER
 ) -> tuple[Vehicle, int]:
-    """Hold the rod inverted for a second, let it happen, and fly on for `after` (s).
+    """Hold the rod inverted for three seconds, let it happen, and fly on for `after` (s).
 
     `instead`: the tick at which the firmware's PID takes over.
     """
@@ -191,7 +191,7 @@ def happen(
     flown.lift()
     flown.firmware.set("flypend.height", LOW[2])
     assert flown.release(fp.State(x=LOW, y=(np.sin(0.1), 0, np.cos(0.1))))
-    flown.fly(1.0)
+    flown.fly(3.0)
     event = flown.ticks
     SCENARIOS[name](flown)
     for _ in range(round(after / TICK)):

@@ -40,6 +40,7 @@ LINES = (
     "flypend tune examples/studies/hanging.toml",
     "flypend export-c --precision float",
     "flypend export-app crazyflie crazyflie --out app",
+    "flypend export-app px4 hehn2011 --out px4-app",
     "flypend learn --updates 20",
     "flypend vehicle new --mass 620g --arm 17cm --propeller 8x4.5 --rod-length 90cm --bob-mass 40g",
     "flypend identify flight.csv --rehearse --duration 20",

@@ -180,16 +180,21 @@ AFTER = 9.0  # s that a scenario lasts
 DISARM = 4.0  # s after which the host script disarms a vehicle that it told to land
 
 
-def happen(name: str, library: Path, vehicle: fp.Vehicle, *, instead: int | None = None) -> tuple[Vehicle, int]:
-    """Hold the rod inverted for a second, let it happen; `instead`: the tick at which the firmware's PID takes over."""
+def happen(
+    name: str, library: Path, vehicle: fp.Vehicle, *, instead: int | None = None, after: float = AFTER
+) -> tuple[Vehicle, int]:
+    """Hold the rod inverted for three seconds, let it happen, and fly on for `after` (s).
+
+    `instead`: the tick at which the firmware's PID takes over.
+    """
     flown = Vehicle(library, vehicle, home=LOW)
     flown.lift()
     flown.firmware.set("flypend.height", LOW[2])
     assert flown.release(fp.State(x=LOW, y=(np.sin(0.1), 0, np.cos(0.1))))
-    flown.fly(1.0)
+    flown.fly(3.0)
     event = flown.ticks
     SCENARIOS[name](flown)
-    for _ in range(round(AFTER / TICK)):
+    for _ in range(round(after / TICK)):
         if flown.ticks == instead:
             flown.firmware.set("stabilizer.controller", OWN)
         if name == "land" and flown.ticks == event + round(DISARM / TICK):
@@ -200,11 +205,13 @@ def happen(name: str, library: Path, vehicle: fp.Vehicle, *, instead: int | None
     return flown, event
 
 
-def compared(name: str, library: Path, vehicle: fp.Vehicle) -> tuple[Vehicle, Vehicle, int, int]:
+def compared(
+    name: str, library: Path, vehicle: fp.Vehicle, *, after: float = AFTER
+) -> tuple[Vehicle, Vehicle, int, int]:
     """The app's flight, that with the firmware's PID from the tick where the law ends, and ticks of event and end."""
-    flown, event = happen(name, library, vehicle)
+    flown, event = happen(name, library, vehicle, after=after)
     end = next(i for i in range(event, len(flown.log)) if flown.log[i][2] != LAW)
-    own, _ = happen(name, library, vehicle, instead=end)
+    own, _ = happen(name, library, vehicle, instead=end, after=after)
     return flown, own, event, end
 
 

@@ -25,6 +25,7 @@ HOME = np.array([0.0, 0.0, 5.0])  # m: a swing-up drops by two metres, and may n
 CUT, PID, LAW, LANDING = range(4)  # flypend.flies
 GRAVITY = 9.81  # m/s², in which the firmware's accelerometer counts
 STILL = np.zeros(6)  # no wind
+CARRYING, FALLING = 1.5, 0.3  # s that the rig carries the vehicle, and that it falls until the law begins
 KALMAN, APP, OWN = 2, 6, 1  # stabilizer.estimator; stabilizer.controller of the app, and the firmware's PID
 
 
@@ -200,14 +201,17 @@ class Vehicle:
         self.hold(0.4)
         assert self.firmware.log("sys.isFlying") == 1, self.firmware.said
 
-    def release(self, start: fp.State, carrying: float = 1.5) -> bool:
-        """Carry it to `start`, with the law switched on just before; release it when the law flies. Whether it does.
+    def release(self, start: fp.State) -> bool:
+        """Carry it to where it falls freely to `start`, with the law switched on just before. Whether the law flies.
 
-        The rig follows cubic paths in x and in the rotation vectors of R and y, from rest to the rates of `start`.
+        The rig follows cubic paths in x and in the rotation vectors of R and y, from rest to where it lets go. In free
+        fall the rod turns as a rod does, which one that is held by a rig does not.
         """
         self.firmware.set("supervisor.tmblChckEn", 0)  # the rig may turn it over
-        for i, state in enumerate(states(carried(self.rest, start, carrying))):
-            if i * TICK > carrying - 0.022:  # the app's task turns the check off within 20 ms
+        falling = fall(self.vehicle, start)
+        path = [*states(carried(self.rest, falling[0], CARRYING)), *falling[1:]]
+        for i, state in enumerate(path):
+            if i * TICK > CARRYING + FALLING - 0.022:  # the app's task turns the check off within 20 ms
                 self.firmware.set("flypend.on", 1)
             self.tick(state)
             if self.flies == LAW:
@@ -215,8 +219,32 @@ class Vehicle:
         return False
 
 
+def fall(vehicle: fp.Vehicle, start: fp.State) -> list[fp.State]:
+    """States of a free fall through `start`, one a tick, from FALLING seconds before it to 20 ms after it.
+
+    Without thrust the motion is the same backwards in time, with the rates reversed.
+    """
+    engine, none = make_engine(vehicle, as_sampled("rotors")), np.zeros(4)
+
+    def flown(begin: fp.State, duration: float) -> list[fp.State]:
+        engine.reset(begin.packed(), none)
+        found = []
+        for _ in range(round(duration / TICK)):
+            engine.step(none, TICK, STILL)
+            found.append(fp.State.trusted(np.array(engine.packed).ravel()))
+        return found
+
+    before = [reversed_rates(state) for state in flown(reversed_rates(start), FALLING)]
+    return [*before[::-1], start, *flown(start, 0.02)]
+
+
+def reversed_rates(state: fp.State) -> fp.State:
+    """The state with its rates reversed."""
+    return fp.State(x=state.x, x_dot=-state.x_dot, R=state.R, omega=-state.omega, y=state.y, y_dot=-state.y_dot)
+
+
 def carried(rest: fp.State, start: fp.State, duration: float) -> fp.State:
-    """States of the rig, one a tick, from `rest` to `start` and 20 ms on."""
+    """States of the rig, one a tick, from `rest` to `start`."""
     spin = np.cross(start.y, start.y_dot)  # angular velocity of the rod, world frame
     back = -Rotation.from_matrix(rest.R.T @ start.R).as_rotvec()  # body frame of `start`: R = start.R exp(turn)
     axis = np.cross(start.y, rest.y)
@@ -224,7 +252,7 @@ def carried(rest: fp.State, start: fp.State, duration: float) -> fp.State:
     if np.linalg.norm(axis) < 1e-9:
         axis = geometry.unit(np.cross(start.y, (1.0, 0.3, 0.2)))
     swing = angle * geometry.unit(axis)
-    t = np.linspace(0, 1, 1 + round((duration + 0.02) / TICK)) * (duration + 0.02)  # s, beyond the start if need be
+    t = np.linspace(0, duration, 1 + round(duration / TICK))
     at = [0.0, duration]
     place = CubicHermiteSpline(at, [rest.x, start.x], [np.zeros(3), start.x_dot])
     turn = CubicHermiteSpline(at, [back, np.zeros(3)], [np.zeros(3), start.omega])

@@ -22,7 +22,22 @@ from benchmarks.firmware.__main__ import (
     strayed,
 )
 from benchmarks.firmware.built import FLAGS, searched
-from benchmarks.firmware.loop import APP, CUT, HOME, HOST, LANDING, LAW, OWN, PID, TICK, Vehicle, carried, states
+from benchmarks.firmware.loop import (
+    APP,
+    CUT,
+    FALLING,
+    HOME,
+    HOST,
+    LANDING,
+    LAW,
+    OWN,
+    PID,
+    TICK,
+    Vehicle,
+    carried,
+    fall,
+    states,
+)
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +99,35 @@ def test_lost_setpoints_are_levelled_out_as_by_the_firmwares_pid_and_lock_it(bui
     assert 1.9 < stopped(flown, event) < 2.1
 
 
+@pytest.mark.parametrize("name", ["switched off", "land", "link lost", "bob lost", "pose lost", "battery low"])
+def test_where_the_law_ends_the_motors_do_what_the_firmwares_pid_would(built, name):
+    """PID of the app and the firmware's begin with other integrals, and lands or flies on where the law ends."""
+    flown, own, event, end = compared(name, *built, after=0.75)
+    assert end < event + 200  # so that there are 0.5 s to compare
+    after = flown.log[end + 20 : end + 500]
+    assert {flies for *_, flies in after} <= {PID, LANDING}
+    assert np.ptp([forces for _, forces, _ in after], axis=0).max() > 0.015  # N: it moves by more
+    assert difference(flown, own, end) < 0.015  # N, of 0.08
+
+
+@pytest.mark.parametrize(
+    ("name", "good", "bad"),
+    [
+        ("mass", 0.031, (0.0, -1.0, np.nan, np.inf)),
+        ("bobMass", 0.0025, (0.0, -1.0, np.nan, np.inf)),
+        ("rodLength", 0.45, (0.0, -1.0, np.nan, np.inf)),
+        ("late", 12.0, (-1.0, 101.0, np.nan)),
+        ("height", 2.5, (0.1, -1.0, 1001.0, np.nan)),
+    ],
+)
+def test_a_parameter_that_the_law_cannot_fly_with_stays_what_it_was(built, name, good, bad):
+    """After an upload through the firmware's table of parameters and its callback."""
+    firmware = Vehicle(*built).firmware
+    assert firmware.set(f"flypend.{name}", good) == pytest.approx(good)
+    for value in bad:
+        assert firmware.set(f"flypend.{name}", value) == pytest.approx(good), value
+
+
 @pytest.mark.parametrize(("name", "soon"), [("bob lost", 0.11), ("pose lost", 0.21), ("battery low", 0.01)])
 def test_what_the_law_needs_and_loses_ends_in_a_landing_near_by(built, name, soon):
     flown, event = happen(name, *built)
@@ -142,3 +186,22 @@ def test_the_rig_moves_as_its_rates_say():
         assert np.allclose((after.y - before.y) / 2e-3, now.y_dot, atol=1e-4)
         spin = now.R.T @ (after.R - before.R) / 2e-3
         assert np.allclose([spin[2, 1], spin[0, 2], spin[1, 0]], now.omega, atol=1e-3)
+
+
+def test_the_fall_goes_through_the_start_and_no_force_acts_but_weight():
+    """Needs no firmware. The centre of mass falls with g, the vehicle's spin stays, and the rod's rate is its rate."""
+    vehicle, start = fp.vehicle("crazyflie"), fp.State.random(np.random.default_rng(3), 1)[0]
+    path = fall(vehicle, start)
+    middle, share = round(FALLING / TICK), vehicle.m / (vehicle.M + vehicle.m)
+    assert path[middle] is start
+    centre = np.array([state.x + share * vehicle.l * state.y for state in path])
+    t = (np.arange(len(path)) - middle) * TICK
+    velocity = start.x_dot + share * vehicle.l * start.y_dot
+    gone = centre[middle] + np.outer(t, velocity) - 0.5 * vehicle.gravity * np.outer(t**2, (0, 0, 1))
+    assert np.abs(centre - gone).max() < 1e-6
+    for before, now, after in zip(path[:-2], path[1:-1], path[2:], strict=True):
+        assert np.allclose((after.y - before.y) / (2 * TICK), now.y_dot, atol=1e-3)
+        spin = now.R.T @ (after.R - before.R) / (2 * TICK)
+        assert np.allclose([spin[2, 1], spin[0, 2], spin[1, 0]], now.omega, atol=1e-3)
+    spins = np.array([state.R @ vehicle.inertia @ state.omega for state in path])
+    assert np.abs(spins - spins[middle]).max() < 1e-6 * np.linalg.norm(spins[middle])

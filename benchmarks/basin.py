@@ -24,23 +24,23 @@ def main(*, lag: bool):
 
 
 def on_hub():
-    """Print the same of vehicles on a hub, where a flight ends at a touch."""
-    _head()
+    """Print the same of vehicles on a hub, where a flight ends at a touch, and how many do."""
+    _head(" touch |")
     for name in HUBS:
         vehicle = fp.vehicle(name).replace(mount="hub")
         for (starts, lag), runs in ON_HUB.items():
             found = measure_basin(vehicle, runs, HUB_SEED, lag=lag, starts=starts)
-            _row(f"{name}, {starts}{', lag' if lag else ''}", found)
+            _row(f"{name}, {starts}{', lag' if lag else ''}", found, f" {found.touched} |")
 
 
-def _head():
-    print("| vehicle | starts | in the set | the last after, s | at 95 %, at least |")
-    print("|---|---|---|---|---|", flush=True)
+def _head(last=""):
+    print("| vehicle | starts | in the set | the last after, s | at 95 %, at least |" + last)
+    print("|---|---|---|---|---|" + "---|" * bool(last), flush=True)
 
 
-def _row(label, found):
+def _row(label, found, last=""):
     share = f"{100 * found.least:.4f} %"
-    print(f"| {label} | {found.runs} | {found.entered} | {found.slowest} | {share} |", flush=True)
+    print(f"| {label} | {found.runs} | {found.entered} | {found.slowest} | {share} |" + last, flush=True)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import flypend as fp
 from flypend.studies.basin import measure_basin
 
 RUNS = {"hehn2011": 1_000_000, "crazyflie": 100_000}
-LAGGED = {"hehn2011": 500_000, "crazyflie": 20_000}
+LAGGED = {"hehn2011": 440_000, "crazyflie": 20_000}
 SEED, LAG_SEED = 20261123, 20261126  # used for nothing else
 # Starts and lag, and how many starts of each vehicle.
 ON_HUB = {("hanging", False): 10_000, ("random", False): 5_000, ("hanging", True): 3_000, ("random", True): 2_000}

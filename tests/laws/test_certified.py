@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from balls import BITS, OPERATIONS
 from flint import arb, ctx
+from taylor_balls import proves
 
 import flypend as fp
 from flypend.compile.program import interpret, lower
@@ -171,6 +172,22 @@ def test_a_bound_carried_backwards_contains_what_cancels():
     bound([*root, ["mul", [1, 3], 0.0]], lambda x: x * np.sqrt(1 + x))  # passed on by the linear part alone
 
 
+@pytest.mark.parametrize("name", ["hehn2011", "crazyflie"])
+def test_ball_arithmetic_proves_the_same_file_for_a_smaller_set(name):
+    """A second checker, of other formulas and without doubles, agrees as far as it reaches."""
+    ctx.prec = BITS
+    made = found(name).certificate
+    c, hover = 0.25 * made["c"], fp.vehicle(name).weight / 4
+    low, high = made["limits"]
+    assert proves(made, c)
+    tight = 0.05 * (hover - low)
+    for change in ({"limits": [low, hover + tight]}, {"limits": [hover - tight, high]}, {"w": 1000 * made["w"]}):
+        assert not proves(made | change, c), change
+        assert certificate.check(made | change), change
+    with pytest.raises(AssertionError):  # too large for models of degree 2: a root of what may vanish
+        proves(made, made["c"])
+
+
 @pytest.mark.parametrize(("left", "right"), [(0.0, 0.2), (0.1, 0.2)])
 @pytest.mark.parametrize("constant", ["neither", "first", "second"])
 def test_the_remainder_of_a_product_has_the_product_of_the_remainders(left, right, constant):
@@ -179,7 +196,10 @@ def test_the_remainder_of_a_product_has_the_product_of_the_remainders(left, righ
     B = certificate.Polynomial(-3.0, None if constant == "second" else line)
     P, rho, factors = certificate.times(A, B, left, right)
     worst = max(
-        abs((at(A, x) + d * left) * (at(B, x) + e * right) - at(P, x)) for x in (-1, 1) for d in (-1, 1) for e in (-1, 1)
+        abs((at(A, x) + d * left) * (at(B, x) + e * right) - at(P, x))
+        for x in (-1, 1)
+        for d in (-1, 1)
+        for e in (-1, 1)
     )
     bound = rho + sum(
         (abs(C.a) + (0 if C.l is None else abs(C.l[0])) + C.radius) * error
@@ -232,9 +252,10 @@ def test_the_file_tells_which_gains_are_no_defaults():
 @pytest.mark.parametrize(
     "change",
     [
-        {"c": np.nan}, {"c": np.inf}, {"c": "much"}, {"w": np.nan}, {"w": np.inf}, {"w": -0.1}, {"limits": [np.nan, 1.0]},
-        {"limits": [0.0, np.nan]}, {"inertia": [[np.nan] * 3] * 3}, {"unmixing": [[np.nan] * 4] * 4}, {"unmixing": []},
-        {"operations": []}, {"operations": [["log", [0], 0.0]]}, {"outputs": []}, {"outputs": [0] * 8}, {"numbers": {}},
+        {"c": np.nan}, {"c": np.inf}, {"c": "much"}, {"w": np.nan}, {"w": np.inf}, {"w": -0.1},
+        {"limits": [np.nan, 1.0]}, {"limits": [0.0, np.nan]}, {"inertia": [[np.nan] * 3] * 3},
+        {"unmixing": [[np.nan] * 4] * 4}, {"unmixing": []}, {"operations": []}, {"operations": [["log", [0], 0.0]]},
+        {"outputs": []}, {"outputs": [0] * 8}, {"numbers": {}},
         {"body": {}},
     ],
     ids=str,

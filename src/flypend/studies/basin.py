@@ -147,8 +147,8 @@ def measure_basin(
     least = float(beta.ppf(1 - CONFIDENCE, entered, runs - entered + 1)) if entered else 0.0
     slowest = float(np.nanmax(entering)) if entered else None
     return MeasuredBasin(
-        vehicle.name, law.name, vehicle.mount, lag, starts, certified.c, certified.yaw_rate, runs, seed, entered, touched,
-        again, slowest, least,
+        vehicle.name, law.name, vehicle.mount, lag, starts, certified.c, certified.yaw_rate, runs, seed, entered,
+        touched, again, slowest, least,
     )  # fmt: skip
 
 

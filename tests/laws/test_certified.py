@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from balls import BITS, OPERATIONS
 from flint import arb, ctx
+from taylor_balls import proves
 
 import flypend as fp
 from flypend.compile.program import interpret, lower
@@ -171,20 +172,125 @@ def test_a_bound_carried_backwards_contains_what_cancels():
     bound([*root, ["mul", [1, 3], 0.0]], lambda x: x * np.sqrt(1 + x))  # passed on by the linear part alone
 
 
-def test_a_file_is_checked_by_a_program_of_its_own(tmp_path):
-    path = tmp_path / "set.json"
+@pytest.mark.parametrize("name", ["hehn2011", "crazyflie"])
+def test_ball_arithmetic_proves_the_same_file_for_a_smaller_set(name):
+    """A second checker, of other formulas and without doubles, agrees as far as it reaches."""
+    ctx.prec = BITS
+    made = found(name).certificate
+    c, hover = 0.25 * made["c"], fp.vehicle(name).weight / 4
+    low, high = made["limits"]
+    assert proves(made, c)
+    tight = 0.05 * (hover - low)
+    for change in ({"limits": [low, hover + tight]}, {"limits": [hover - tight, high]}, {"w": 1000 * made["w"]}):
+        assert not proves(made | change, c), change
+        assert certificate.check(made | change), change
+    with pytest.raises(AssertionError):  # too large for models of degree 2: a root of what may vanish
+        proves(made, made["c"])
+
+
+@pytest.mark.parametrize(("left", "right"), [(0.0, 0.2), (0.1, 0.2)])
+@pytest.mark.parametrize("constant", ["neither", "first", "second"])
+def test_the_remainder_of_a_product_has_the_product_of_the_remainders(left, right, constant):
+    line = np.array([0.7])
+    A = certificate.Polynomial(2.0, None if constant == "first" else line)
+    B = certificate.Polynomial(-3.0, None if constant == "second" else line)
+    P, rho, factors = certificate.times(A, B, left, right)
+    worst = max(
+        abs((at(A, x) + d * left) * (at(B, x) + e * right) - at(P, x))
+        for x in (-1, 1)
+        for d in (-1, 1)
+        for e in (-1, 1)
+    )
+    bound = rho + sum(
+        (abs(C.a) + (0 if C.l is None else abs(C.l[0])) + C.radius) * error
+        for C, error in zip(factors, (left, right), strict=True)
+    )
+    assert worst <= bound * certificate.UP
+    assert constant == "neither" or bound < 1.001 * worst
+
+
+def at(P, x):
+    return P.a + (0 if P.l is None else P.l[0] * x) + (0 if P.Q is None else P.Q[0, 0] * x**2)
+
+
+def test_a_file_is_checked_by_a_program_of_its_own(tmp_path, capsys):
+    path, good = tmp_path / "set.json", found().certificate
     found().save(path)
-    run = subprocess.run(
-        [sys.executable, "-m", "flypend.laws.certificate", str(path)], capture_output=True, text=True, check=False
-    )
-    assert (run.returncode, run.stdout.split(":")[0]) == (0, "proved")
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"c": 1.0}))
-    run = subprocess.run(
-        [sys.executable, "-m", "flypend.laws.certificate", str(path)], capture_output=True, text=True, check=False
-    )
-    assert (run.returncode, run.stdout.split(":")[0]) == (1, "not proved")
+    assert json.loads(path.read_text()) == good
+    command = [sys.executable, "-m", "flypend.laws.certificate", str(path)]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert run.stdout.startswith("proved: V <= 0.05")
+    assert run.stdout.endswith(" almost_global on hehn2011\n")
+
+    def refused(*vehicle, **changes):
+        path.write_text(json.dumps(good | changes))
+        assert certificate.main(str(path), *vehicle) == 1
+        return capsys.readouterr().out
+
+    assert refused(c=1.0).startswith("not proved: a ")
+    assert refused("crazyflie") == "not proved: its vehicle is not that of the law\n"
+    assert refused(vehicle="crazyflie") == "not proved: its numbers is not that of the law\n"
+    wrong = copy.deepcopy(good["operations"])
+    wrong[[i for i, (name, _, _) in enumerate(wrong) if name == "add"][1500]][0] = "sub"
+    assert certificate.check(good | {"operations": wrong}) == ""  # proved of a program that is not the law
+    assert refused(operations=wrong).startswith("not proved: its program differs from the law by ")
     with pytest.raises(fp.InputError, match=r"^path: expected a file name ending in \.json"):
         found().save(tmp_path / "set.txt")
+
+
+def test_the_file_tells_which_gains_are_no_defaults():
+    other = fp.laws.almost_global(rod_damping=4.3).bind(HEHN)
+    made = found().certificate | {"numbers": found().certificate["numbers"] | {"rod_damping": 4.3}}
+    assert certificate.unlike(made) == ("", "almost_global, rod_damping 4.3 on hehn2011")
+    assert differs(made, other) == ""
+    made["numbers"]["rod_damping"] = -4.3
+    reason, _ = certificate.unlike(made)
+    assert reason.startswith("no law of flypend is in the file: rod_damping: expected")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"c": np.nan}, {"c": np.inf}, {"c": "much"}, {"w": np.nan}, {"w": np.inf}, {"w": -0.1},
+        {"limits": [np.nan, 1.0]}, {"limits": [0.0, np.nan]}, {"inertia": [[np.nan] * 3] * 3},
+        {"unmixing": [[np.nan] * 4] * 4}, {"unmixing": []}, {"operations": []}, {"operations": [["log", [0], 0.0]]},
+        {"outputs": []}, {"outputs": [0] * 8}, {"numbers": {}},
+        {"body": {}},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_corrupted_files_are_rejected_in_a_line(change):
+    reason = certificate.check(found().certificate | change)
+    assert reason
+    assert "\n" not in reason
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 0.0, -1.0, 1e300, "1", None])
+def test_corrupted_numbers_are_rejected(value):
+    good, law = found().certificate, found().law
+    for name in good["numbers"]:
+        wrong = good | {"numbers": good["numbers"] | {name: value}}
+        assert differs(wrong, law) == "its numbers is not that of the law"
+    for name in ("M", "g", "l", "position_stiffness", "rod_weight", "axis_stiffness", "axis_weight"):
+        assert certificate.check(good | {"numbers": good["numbers"] | {name: value}}), name
+
+
+def test_constants_of_the_program_are_checked():
+    good, law = found().certificate, found().law
+    places = [i for i, (name, _, _) in enumerate(good["operations"]) if name == "constant"]
+    for i in places:
+        for value in (good["operations"][i][2] * (1 + 1e-6) + 1e-6, np.nan):
+            wrong = copy.deepcopy(good)
+            wrong["operations"][i][2] = value
+            assert certificate.check(wrong) or differs(wrong, law)
+
+
+def test_a_program_too_long_for_the_bounds_on_rounding_is_refused():
+    one = ["constant", [], 1.0]
+    for operations in ([one] * 100_001, [one, *[["add", [0, 0], 0.0]] * 2501]):
+        with pytest.raises(certificate.NotProvedError, match="too long, or uses a value too often"):
+            certificate.evaluate(operations, None, [0])
 
 
 def test_wrong_certificates_are_rejected():

@@ -8,6 +8,7 @@ from scipy.stats import binomtest
 
 import flypend as fp
 from flypend.flight.tasks import SWAY, free_starts, random_hanging, touching
+from flypend.laws.lag import leading
 from flypend.studies import basin
 from flypend.studies.basin import measure_basin
 
@@ -30,7 +31,7 @@ def test_nearly_all_starts_enter_under_the_inverted_law():
 def test_another_law_enters_from_fewer_and_those_flights_do_converge(certified):
     lqr = fp.laws.lqr()
     starts = fp.State.random(np.random.default_rng(2), 200, max_omega=0.3, max_y_dot=0.3, max_x_dot=0.3)
-    entering = basin._entering(lqr.bind(VEHICLE), certified, starts, *basin.PASSES[0])
+    entering, _ = basin._entering(lqr.bind(VEHICLE), certified, starts, *basin.PASSES[0])
     assert 0 < np.sum(np.isfinite(entering)) < 200
     law = fp.laws.supervised(first=lqr, level=certified.c, yaw_rate=certified.yaw_rate)
     flown = fp.simulate_ensemble(VEHICLE, law, starts, 25.0, plant=fp.Ideal(limits=True))
@@ -41,9 +42,9 @@ def test_a_flight_counts_only_if_its_own_error_leaves_it_inside(certified, monke
     """With a safety factor beyond measure no flight is inside for sure."""
     starts = fp.random_starts(20, 4)
     law = fp.laws.inverted().bind(VEHICLE)
-    assert np.all(np.isfinite(basin._entering(law, certified, starts, *basin.PASSES[0])))
+    assert np.all(np.isfinite(basin._entering(law, certified, starts, *basin.PASSES[0])[0]))
     monkeypatch.setattr(basin, "SAFETY", 1e12)
-    assert np.all(np.isnan(basin._entering(law, certified, starts, *basin.PASSES[0])))
+    assert np.all(np.isnan(basin._entering(law, certified, starts, *basin.PASSES[0])[0]))
 
 
 def test_those_that_are_late_are_flown_again(monkeypatch):
@@ -68,17 +69,19 @@ def test_what_the_theorem_does_not_model_is_refused():
     assert error.value.field == "starts"
 
 
-def test_on_a_hub_starts_are_free_and_a_flight_ends_where_it_touches(certified):
+@pytest.mark.parametrize("lag", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_on_a_hub_starts_are_free_and_what_does_not_enter_touches(lag):
     hub = VEHICLE.replace(mount="hub")
-    found = measure_basin(hub, 100, 3, starts="hanging")
-    assert (found.mount, found.starts, found.entered) == ("hub", "hanging", 100)
-    starts = free_starts(hub, basin.DRAWS["random"], np.random.default_rng(5), 200)
+    found = measure_basin(hub, 100, 3, starts="hanging", lag=lag)
+    assert (found.mount, found.starts, found.entered, found.touched) == ("hub", "hanging", 100, 0)
+    found = measure_basin(hub, 200, 5, lag=lag)
+    assert 100 < found.entered < 195
+    assert found.entered + found.touched == 200
+    starts = free_starts(hub, basin.DRAWS["random"], np.random.default_rng((5, 0)), basin.CHUNK)[:200]
     assert not touching(hub, starts).any()
-    entering = basin._entering(fp.laws.inverted().bind(hub), certified, starts, *basin.PASSES[1])
-    flown = fp.simulate_ensemble(hub, fp.laws.inverted(), starts, 40.0, plant=fp.Ideal(limits=True))
-    touched = np.isfinite(flown.end) & (flown.clearance <= 0)
-    assert 5 < touched.sum() < 100
-    np.testing.assert_array_equal(np.isnan(entering), touched)
+    law = leading(fp.laws.inverted()) if lag else fp.laws.inverted()
+    flown = fp.simulate_ensemble(hub, law, starts, 40.0, plant=fp.Ideal(limits=True, lag=lag))
+    assert np.sum(np.isfinite(flown.end) & (flown.clearance <= 0)) == found.touched
 
 
 def test_hanging_starts_are_level_at_rest_near_straight_down():

@@ -74,5 +74,6 @@ def _basin(out: Path, runs: int, seed: int, vehicle: Vehicle, lag: bool, starts:
     about = f"{found.vehicle} on a {found.mount}, {found.law} law, rotor limits, {delayed}"
     console.print(f"{about}; certified set V ≤ {found.c:.3g} m²/s²")
     last = "" if found.slowest is None else f", the last after {found.slowest:g} s"
-    console.print(f"{found.entered} of {found.runs} {found.starts} starts enter it{last}.")
+    others = f" {found.touched} of the others end at a touch." if found.entered < found.runs else ""
+    console.print(f"{found.entered} of {found.runs} {found.starts} starts enter it{last}.{others}")
     console.print(f"At 95 %, at least {100 * found.least:.5f} % of such starts do. Numbers are in {bold(out)}.")

@@ -1,9 +1,9 @@
-"""Check a certificate of Theorem C by validated computation: `python -m flypend.laws.certificate FILE`.
+"""Check a certificate of Theorem C by validated computation: `python -m flypend.laws.certificate FILE [VEHICLE]`.
 
 The file says: for every state with V ≤ c and |ω₃| ≤ w, at any heading, the law asks each rotor for a force within its
 limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. With a body, the
-rod of a hub touches neither rotor disc nor arm. This module imports nothing of flypend. It evaluates the law's program
-on Taylor models of degree 3 over the unit ball, which contains {V ≤ c} in the coordinates of the chart lemma
+rod of a hub touches neither rotor disc nor arm. `check` uses nothing of flypend. It evaluates the law's program on
+Taylor models of degree 3 over the unit ball, which contains {V ≤ c} in the coordinates of the chart lemma
 (docs/laws/theorem-proof.md, section 8):
 
     value = P(x) + δ(x),   P = a + l·x + x·Qx + T(x, x, x),   |x| ≤ 1,   ξ = diag(radii) x
@@ -16,7 +16,14 @@ Summing |C| |δ| forgets that remainders cancel as values do, and is a hundred t
 also carried backwards, as in automatic differentiation: the remainder of a value is Σ_i λ_i(x) ϱ_i(x) with
 λ_j = Σ_i λ_i C_ij. Of λ the constant and the linear part are kept; the rest meets the bound on δ_j at once.
 
-Numbers are doubles. ROUND and UP bound what rounding loses, in any order of summation (Higham 2002, section 3.1).
+Numbers are doubles, of unit roundoff u = 2⁻⁵³, and what rounding loses is bounded in advance: a sum of n products of k
+factors is off by at most (n + k) u times the sum of their sizes, in any order (Higham 2002, section 3.1).
+
+- The coefficients of P sum at most five products of four factors: ROUND times the Frobenius norms of what enters, or of
+  what comes out of a sum or of the product with a constant.
+- λ_j sums over the operations that use j, at most TERMS: ROUND (|a| + |l|) |λ_i| for each.
+- Bounds and norms are sums of at most 10⁴ non-negative numbers: they are too small by less than the factor UP.
+- What underflows is below TINY, squares below its square. TINY is added to each norm and to each bound.
 """
 
 from __future__ import annotations
@@ -24,6 +31,7 @@ from __future__ import annotations
 import json
 import math
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,9 +41,8 @@ import numpy as np
 
 FORMAT = "flypend certificate 1"
 BLOCK = 1000  # operations between two backward passes: fewer cost time, and more lose what the next one starts from
-# Relative to the sizes of what is summed: a value of at most 10⁴ terms, each a few operations of 2⁻⁵³. A sum of
-# non-negative numbers is larger than computed by less than UP. TINY: underflow.
-ROUND, UP, TINY = 1e-12, 1 + 1e-11, 1e-280
+ROUND, UP, TINY = 1e-12, 1 + 1e-11, 1e-150
+TERMS, OPERATIONS = 5000, 10**5  # most uses of a value, and operations of a program
 GAP = 1e-9  # m, more than rounding moves a distance
 MET = 100  # values whose share of a bound is added at a time
 
@@ -134,18 +141,21 @@ def plus(A: Polynomial, B: Polynomial, sign: float = 1.0) -> Result:
 
 
 def times(A: Polynomial, B: Polynomial, left: float, right: float) -> Result:
-    """A B, whose remainders are at most `left` and `right`; terms of degree 4 to 6 go to rho."""
+    """A B, whose remainders are at most `left` and `right`; terms of degree 4 to 6 go to rho.
+
+    (A + δ)(B + ε) − A B = (B + ε/2) δ + (A + δ/2) ε.
+    """
     for P, other, place in ((A, B, 1), (B, A, 0)):
         if P.constant:
             scaled = Polynomial(P.a * other.a, _times(other.l, P.a), _times(other.Q, P.a), _times(other.T, P.a))
-            factors = Factor(other.a, other.l, sum(other.sizes[1:])), Factor(P.a, None, 0.0)
+            own, others = (left, right) if place else (right, left)
+            factors = Factor(other.a, other.l, sum(other.sizes[1:]) + others / 2), Factor(P.a, None, own / 2)
             return scaled, ROUND * scaled.whole, factors if place else factors[::-1]
     l = _sum(_times(A.l, B.a), _times(B.l, A.a))
     Q = _sum(_sum(_times(A.Q, B.a), _times(B.Q, A.a)), _square(A.l, B.l))
     T = _sum(_sum(_times(A.T, B.a), _times(B.T, A.a)), _sum(_cube(A.l, B.Q), _cube(B.l, A.Q)))
     (la, qa, ta), (lb, qb, tb) = A.sizes, B.sizes
     rho = la * tb + ta * lb + (qa + ta) * (qb + tb) + ROUND * A.whole * B.whole
-    # (P + δ)(Q + ε) − P Q = (Q + ε/2) δ + (P + δ/2) ε
     factors = Factor(B.a, B.l, qb + tb + right / 2), Factor(A.a, A.l, qa + ta + left / 2)
     return Polynomial(A.a * B.a, l, Q, T), rho, factors
 
@@ -239,7 +249,7 @@ def _errors(values: list[Value], targets: Sequence[int], n: int) -> Any:
         if met and (len(met) == MET or not i):
             all_, (constant, linear) = np.stack(met), np.array(added).T
             found += constant @ np.abs(all_[:, 0])
-            found += linear @ np.sqrt(np.einsum("ijk,ijk->ik", all_[:, 1:], all_[:, 1:]))
+            found += linear @ (np.sqrt(np.einsum("ijk,ijk->ik", all_[:, 1:], all_[:, 1:])) + TINY)
             met.clear()
             added.clear()
     return found * UP
@@ -289,6 +299,9 @@ class _Tape:
 
 def evaluate(operations: list[Any], inputs: Any, outputs: list[int]) -> list[Model]:
     """Return P and a bound on |δ| of each of the `outputs` of the program; `inputs(vector, entry)` is a P."""
+    used = Counter(place for name, arguments, _ in operations if name != "input" for place in arguments)
+    if len(operations) > OPERATIONS or max(used.values(), default=0) > TERMS:
+        raise NotProvedError("the program is too long, or uses a value too often, for the bounds on rounding")
     tape, places, n, first = _Tape(), [], 0, 0  # places: of each operation on the tape
     last = {place: i for i, (name, arguments, _) in enumerate(operations) if name != "input" for place in arguments}
     last |= dict.fromkeys(outputs, len(operations))
@@ -312,7 +325,8 @@ def evaluate(operations: list[Any], inputs: Any, outputs: list[int]) -> list[Mod
 
 
 def _alive(value: Value) -> Polynomial:
-    assert value.P is not None
+    if value.P is None:
+        raise NotProvedError("the program uses a value that is gone")
     return value.P
 
 
@@ -379,7 +393,7 @@ def evaluate_program(certificate: Any, c: float) -> Answer:
 
 def _norm(sizes: Sequence[float]) -> float:
     """Bound on the length of a vector whose entries are at most `sizes`."""
-    return math.sqrt(sum(size * size for size in sizes)) * UP
+    return math.sqrt(sum(size * size for size in sizes)) * UP + TINY
 
 
 def _far(model: Model) -> float:
@@ -442,7 +456,7 @@ def ranges_of(certificate: Any, c: float, w: float, answer: Answer) -> list[tupl
         turned = _norm([(abs(P.a) + P.sizes[1] + P.sizes[2] + off) * UP for P, off in u])
         for own, share, (one, two, three) in zip(unmixing[:, 0], shares, arms, strict=True):
             h = _norm([one, two])
-            linear = math.sqrt((share[0] * F.sizes[0]) ** 2 + 2 * share[0] * h * mixed + h * h * largest)
+            linear = math.sqrt((share[0] * F.sizes[0]) ** 2 + 2 * share[0] * h * mixed + h * h * largest) + TINY
             rest = share[0] * (F.sizes[1] + F.sizes[2] + error) + h * turned
             spin = h * across + three * along + float(share[1:] @ gyroscopic)
             spread = (linear + rest + spin + ROUND * abs(own * F.a)) * UP
@@ -452,16 +466,19 @@ def ranges_of(certificate: Any, c: float, w: float, answer: Answer) -> list[tupl
 
 def check(certificate: Any) -> str:
     """Return why the certificate does not hold, in one line; empty if it is proved."""
-    if certificate.get("format") != FORMAT:
-        return f"not a file of {FORMAT}"
-    c, w = float(certificate["c"]), float(certificate["w"])
-    if not (c > 0 and w >= 0):
-        return "c must be positive, and w not negative"
     try:
-        answer = evaluate_program(certificate, c)
-        return outside(certificate, ranges_of(certificate, c, w, answer)) or touching(certificate, lean(answer))
+        if certificate["format"] != FORMAT:
+            return f"not a file of {FORMAT}"
+        c, w = float(certificate["c"]), float(certificate["w"])
+        if not (c > 0 and w >= 0):
+            return "c must be positive, and w not negative"
+        with np.errstate(all="ignore"):  # no comparison holds for what is not a number
+            answer = evaluate_program(certificate, c)
+            return outside(certificate, ranges_of(certificate, c, w, answer)) or touching(certificate, lean(answer))
     except NotProvedError as reason:
         return str(reason)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as broken:
+        return f"no certificate: {type(broken).__name__}, {broken}"
 
 
 def outside(certificate: Any, ranges: list[tuple[float, float]]) -> str:
@@ -502,14 +519,41 @@ def touching(certificate: Any, theta: float) -> str:
     return ""
 
 
-def main(path: str) -> int:
-    """Check the file at `path`."""
+def unlike(certificate: Any, vehicle: str | None = None) -> tuple[str, str]:
+    """Return in what a certificate is not of flypend's law of that name on its `vehicle`, and what that law is.
+
+    The first is empty where none is found. The law has the gains in the file, and the second tells those that are no
+    defaults. `vehicle` is a name or a TOML file; default the name in the file.
+    """
+    from flypend import InputError, laws, model  # check needs none of it
+    from flypend.laws.certified import BODY, differs
+
+    try:
+        machine = model.vehicle(vehicle or certificate["vehicle"])
+        machine = machine.replace(mount="hub") if certificate["body"] else machine
+        gains = {key: value for key, value in certificate["numbers"].items() if key not in (*BODY, "rotor_lag")}
+        make = {"almost_global": laws.almost_global, "almost_global_lag": laws.almost_global_lag}[certificate["law"]]
+        usual = make().bind(machine).numbers
+        own = [f"{name} {value:g}" for name, value in gains.items() if value != usual.get(name)]
+        return differs(certificate, make(**gains).bind(machine)), ", ".join(
+            [make.__name__, *own]
+        ) + f" on {machine.name}"
+    except (InputError, KeyError) as reason:
+        return f"no law of flypend is in the file: {reason}", ""
+
+
+def main(path: str, vehicle: str | None = None) -> int:
+    """Check the file at `path`, and compare its program with the law that it names, on `vehicle`."""
     certificate = json.loads(Path(path).read_text(encoding="utf-8"))
-    reason = check(certificate)
-    told = f"V <= {certificate['c']:g}, |omega_3| <= {certificate['w']:g} rad/s on {certificate['vehicle']}"
-    print(f"not proved: {reason}" if reason else f"proved: {told}")
-    return 1 if reason else 0
+    reason, law = check(certificate), ""
+    if not reason:
+        reason, law = unlike(certificate, vehicle)
+    if reason:
+        print(f"not proved: {reason}")
+        return 1
+    print(f"proved: V <= {certificate['c']} m^2/s^2, |omega_3| <= {certificate['w']} rad/s, {law}")
+    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

@@ -58,6 +58,8 @@ class MeasuredBasin:
         Starts, and their seed.
     entered : int
         Flights that enter.
+    touched : int
+        Flights that do not enter and end where the rod touches a rotor disc or an arm.
     again : int
         Flights that were flown again, at tighter tolerances.
     slowest : float, optional
@@ -76,6 +78,7 @@ class MeasuredBasin:
     runs: int
     seed: int
     entered: int
+    touched: int
     again: int
     slowest: float | None
     least: float
@@ -126,16 +129,17 @@ def measure_basin(
     law = (leading(inverted()) if lag else inverted()).bind(vehicle)
     progress("proving the certified set", 0, 1)
     certified = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
-    times, again = [], 0
+    times, touched, again = [], 0, 0
     for begin in range(0, runs, CHUNK):
         progress("flying", begin, runs)
         rng = np.random.default_rng((seed, begin // CHUNK))
         batch = free_starts(vehicle, draw, rng, CHUNK)[: runs - begin]
-        found = _entering(law, certified, batch, *PASSES[0])
+        found, _ = _entering(law, certified, batch, *PASSES[0])
         left = np.flatnonzero(np.isnan(found))
         if len(left):
             again += len(left)
-            found[left] = _entering(law, certified, batch[left], *PASSES[1])
+            found[left], touching = _entering(law, certified, batch[left], *PASSES[1])
+            touched += int(np.sum(touching & np.isnan(found[left])))
         times.append(found)
     progress("flying", runs, runs)
     entering = np.concatenate(times)
@@ -143,15 +147,18 @@ def measure_basin(
     least = float(beta.ppf(1 - CONFIDENCE, entered, runs - entered + 1)) if entered else 0.0
     slowest = float(np.nanmax(entering)) if entered else None
     return MeasuredBasin(
-        vehicle.name, law.name, vehicle.mount, lag, starts, certified.c, certified.yaw_rate, runs, seed, entered, again,
-        slowest, least,
+        vehicle.name, law.name, vehicle.mount, lag, starts, certified.c, certified.yaw_rate, runs, seed, entered,
+        touched, again, slowest, least,
     )  # fmt: skip
 
 
 def _entering(
     law: BoundLaw, certified: CertifiedSet, starts: State, until: float, loose: float, tight: float
-) -> Numbers:
-    """Return the times (n,), s, at which flights from `starts` (n,) are inside for sure; NaN for none up to `until`."""
+) -> tuple[Numbers, Numbers]:
+    """Return when flights from `starts` (n,) are inside for sure (n,), s, and which of them end at a touch (n,).
+
+    The first is NaN for a flight that is not inside up to `until`.
+    """
     times, lag = np.arange(TICK, until + TICK / 2, TICK), law.uses_wrench
     measures = []
     for rtol in (loose, tight):
@@ -163,4 +170,4 @@ def _entering(
         measures.append(certified.ratios(flown.samples, flown.wrenches))
     rough, fine = measures
     inside = np.all(fine + SAFETY * np.abs(fine - rough) <= 1, axis=-1)  # false after a flight's end, which is NaN
-    return np.where(np.any(inside, axis=1), times[np.argmax(inside, axis=1)], np.nan)
+    return np.where(np.any(inside, axis=1), times[np.argmax(inside, axis=1)], np.nan), flown.cause == "collided"

@@ -20,7 +20,7 @@ POSE, IMU, ROD = "geometry_msgs/msg/PoseStamped", "sensor_msgs/msg/Imu", "geomet
 FRACTIONS, FORCES = "actuator_msgs/msg/Actuators", "std_msgs/msg/Float64MultiArray"
 # What is read of a message, by its type: paths of fields, by our columns.
 XYZ = "xyz"
-FIELDS = {
+FIELDS: dict[str, dict[str, tuple[str, ...]]] = {
     POSE: {
         **{axis: ("pose", "position", axis) for axis in XYZ},
         **{f"q{axis}": ("pose", "orientation", axis) for axis in "wxyz"},
@@ -46,7 +46,8 @@ def parse_bag(content: bytes | bytearray, field: str = "log") -> tuple[dict[str,
     one topic of each type, except that of the rod, or the file is no bag.
     """
     read = _messages(content, field)
-    columns, commands = [], None
+    columns: list[tuple[Any, dict[str, Any]]] = []
+    commands = None
     for kinds in ((POSE,), (IMU,), (ROD,), (FRACTIONS, FORCES)):
         topics = {topic: kind for topic, kind in read if kind in kinds}
         if len(topics) != 1 and (topics or kinds != (ROD,)):
@@ -54,6 +55,7 @@ def parse_bag(content: bytes | bytearray, field: str = "log") -> tuple[dict[str,
             raise InputError(field, f"one topic of {' or '.join(kinds)}", found)
         for topic, kind in topics.items():
             stamps, messages = zip(*read[topic, kind], strict=True)
+            named: dict[str, Any]
             if kind in FIELDS:
                 named = {name: [_at(one, path) for one in messages] for name, path in FIELDS[kind].items()}
             else:

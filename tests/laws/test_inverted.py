@@ -637,6 +637,20 @@ def test_on_either_side_of_that_border_it_inverts(share):
     assert result.rate > 0.95
 
 
+def test_a_vehicle_whose_rotors_lag_too_much_for_a_flip_pumps(monkeypatch):
+    vehicle = VEHICLE.replace(
+        bob_mass=0.2, inertia=VEHICLE.I / 1.4, rotor_limits=tuple(np.multiply(VEHICLE.rotor_limits, (1, 1.4)))
+    )
+    vehicle = vehicle.replace(rotor_lag=0.46 * np.sqrt(vehicle.l / vehicle.g))
+    starts = random_starts(48, 11)
+    assert fp.simulate_ensemble(vehicle, LAW, starts, 30.0, plant="rotors").rate > 0.95
+    # Negative control: it is agile enough to flip, and misses half of the catches.
+    monkeypatch.setattr(inverted_gains, "MOST_LAG", np.inf)
+    flipping = fp.laws.inverted()
+    assert flipping.gains_for(vehicle)["pump_share"] == 0
+    assert fp.simulate_ensemble(vehicle, flipping, starts, 30.0, plant=fp.Plant(seed=1)).rate < 0.7
+
+
 @pytest.mark.parametrize("i", range(3))
 def test_rotor_forces_stay_within_their_limits(i):
     run = fp.simulate(VEHICLE, LAW, STARTS[i], 10.0, plant="rotors")

@@ -91,11 +91,11 @@ def identify(
     mass_error: float,
     rehearsal: Rehearsal,
 ) -> None:
-    """Find a machine's numbers, with bands, in LOG, a CSV, ULog or µSD file of a flight with the rod hanging.
+    """Find a machine's numbers, with bands, in LOG, a CSV, ULog, µSD or MCAP file of a flight with the rod hanging.
 
     --vehicle is the guess: its mass is taken as weighed, its rotors' positions, spins and limits as known. The
     columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry, rz, vbat.
-    For PX4's ULog, add --command pwm.
+    For PX4's ULog, add --command pwm. MCAP is a bag of ROS 2.
     """
     from flypend import model
     from flypend.errors import InputError

@@ -37,7 +37,8 @@ def identify(
     Parameters
     ----------
     log : path
-        A CSV file, PX4's ULog or a Crazyflie's µSD log; docs/how-to/identify.md has its columns and topics.
+        A CSV file, PX4's ULog, a bag of ROS 2 in MCAP or a Crazyflie's µSD log; docs/how-to/identify.md has their
+        columns and topics.
     vehicle : Vehicle
         The guess. Its mass is taken as weighed, its rotor positions, spins, limits and gravity as known.
     marker : (3,)

@@ -1,4 +1,4 @@
-"""A flight log: a table of what was commanded and measured, read from CSV, ULog or µSD and checked cell by cell."""
+"""A flight log: a table of what was commanded and measured, from CSV, ULog, µSD or a bag, checked cell by cell."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.reading import read_bytes
 from flypend.geometry import Numbers, rotation_from_quat_xyzw
+from flypend.identification.rosbag import is_mcap, parse_bag
 from flypend.identification.ulog import is_ulog, parse_ulog
 from flypend.identification.usd import is_usd, parse_usd
 
@@ -85,15 +86,18 @@ class Log:
 
 
 def read_log(path: str | Path) -> Log:
-    """Read the CSV, ULog or µSD file at `path`. Raises InputError in one line that names row and column, or the topic.
+    """Read the CSV, ULog, µSD or MCAP file at `path`. Raises InputError that names row and column, or topic.
 
     A ULog is PX4's: its longest flight is read. A µSD log is the Crazyflie's: of its variables those in `CRAZYFLIE`
-    are read. Both have commands in fractions of the largest force.
+    are read. Both have commands in fractions of the largest force. MCAP is a bag of ROS 2: see `rosbag`.
     """
     try:
         content = read_bytes(path, MOST_BYTES, copies=COPIES)
         if is_ulog(content):
             return _check(*parse_ulog(content, str(path)), str(path), fractions=True)
+        if is_mcap(content):
+            columns, rotors, fractions = parse_bag(content, str(path))
+            return _check(columns, rotors, str(path), fractions=fractions)
         if is_usd(content):
             return _from_crazyflie(parse_usd(content, str(path)), str(path))
         text = content.decode("utf-8")
@@ -102,7 +106,9 @@ def read_log(path: str | Path) -> Log:
     except OSError as error:
         raise InputError(str(path), "a readable file", error.strerror or error) from None
     except ValueError as error:  # not UTF-8, or a name that no file can have
-        raise InputError(str(path), "a ULog, a µSD log of the Crazyflie, or a CSV file in UTF-8", error) from None
+        raise InputError(
+            str(path), "a ULog, a µSD log of the Crazyflie, a bag in MCAP, or a CSV file in UTF-8", error
+        ) from None
     return parse_log(text, str(path))
 
 

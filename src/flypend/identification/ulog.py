@@ -52,17 +52,27 @@ def parse_ulog(content: bytes | bytearray, field: str = "log") -> tuple[dict[str
     columns.append(commands)
     if "battery_status" in topics:
         columns.append(_read_first(topics, field, (("battery_status", "voltage_v"),), ("vbat",), (1.0,)))
-    begin, end = _in_air(topics, field)
+    table = merged(columns, 1e-6, *_in_air(topics, field))
+    return table, len(commands[1])
+
+
+def merged(
+    columns: list[tuple[Any, dict[str, Any]]], unit: float, begin: float = 0.0, end: float = np.inf
+) -> dict[str, Any]:
+    """Return `columns` that each have times of their own, in a `unit` (s), on all times from `begin` to `end`.
+
+    Where a column has no value there is NaN. Column "t" is in s, from the first time.
+    """
     times = np.unique(np.concatenate([t for t, _ in columns]))
     times = times[(times >= begin) & (times <= end)]
-    table: dict[str, Any] = {"t": (times - times[:1]) * 1e-6}
+    table: dict[str, Any] = {"t": (times - times[:1]) * unit}
     for stamps, named in columns:
         inside = (stamps >= begin) & (stamps <= end)
         rows = np.searchsorted(times, stamps[inside])
         for name, values in named.items():
             table[name] = np.full(len(times), np.nan)
             table[name][rows] = values[inside]
-    return table, len(commands[1])
+    return table
 
 
 def _topics(content: bytes | bytearray, field: str) -> dict[str, dict[str, Any]]:

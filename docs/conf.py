@@ -19,6 +19,7 @@ author = "The flypend authors"
 release = version = __version__
 extensions = [
     "accessible",
+    "live",
     "mathml",
     "sources",
     "myst_nb",

@@ -90,7 +90,8 @@ export class Viewer {
     this.opening = null;
   }
 
-  #plot(wanted) {
+  #plot(every) {
+    const wanted = this.only ? every.filter(({ plain }) => plain === this.only) : every;
     for (const plot of this.plots.splice(wanted.length)) plot.root.remove();
     wanted.forEach((options, i) => {
       if (this.plots[i]) this.plots[i].load(options);

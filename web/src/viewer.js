@@ -40,6 +40,7 @@ export class Viewer {
     this.theme = new Theme(palette, (colours) => this.#paint(colours));
     this.#choices();
     this.flights = [];
+    addEventListener("message", ({ source, data }) => source === parent && this.theme.set(data?.theme)); // of the page around a frame
     this.theme.set(this.theme.name); // before the scene is measured: borders have their width by their colours
     if (runs.length) this.load(runs);
     this.layouts.root.hidden = this.flights.length < 2;

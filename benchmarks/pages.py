@@ -164,7 +164,8 @@ def lab(browser):
 
 DRAWINGS = {
     "swing-up": stills, "replay": partial(browsed, replay), "lab": partial(browsed, lab),
-    "live": partial(browsed, live), "api": api, "vehicles": vehicles, **{name: partial(command, name) for name in COMMANDS},
+    "live": partial(browsed, live), "api": api, "vehicles": vehicles,
+    **{name: partial(command, name) for name in COMMANDS},
 }  # fmt: skip
 
 

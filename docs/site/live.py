@@ -1,7 +1,8 @@
-"""Live figures: a picture img/live-NAME.png of a page is, on the site, the figure NAME itself.
+"""Live figures: a picture img/live-NAME.png is, on the site, the figure NAME itself.
 
-The figure is a step of `flypend.lab.controls`, flown by the page of all chapters, which is written once and loaded
-where it comes into sight. The picture is there where the page is read elsewhere, printed, or without scripts.
+The figure is a step of `flypend.lab.controls`, flown by the page of all chapters, which
+is written once and loaded where it comes into sight. The picture is there where the page
+is read elsewhere, printed, or without scripts.
 """
 
 import re
@@ -28,11 +29,10 @@ def _enliven(app: Sphinx, page: nodes.document, name: str) -> None:
         address, told = "../" * name.count("/") + PAGE + asked, escape(image["alt"])
         image["loading"] = "lazy"
         frame = (
-            f'<span class="live {found[1]}"><iframe src="{address}" title="{told}" loading="lazy"></iframe>'
+            f'<span class="live {found[1]}">'
+            f'<iframe src="{address}" title="{told}" loading="lazy"></iframe>'
         )
-        start, end = (
-            nodes.raw("", text, format="html") for text in (frame, "</span>")
-        )
+        start, end = (nodes.raw("", text, format="html") for text in (frame, "</span>"))
         image.replace_self([start, image.deepcopy(), end])
 
 

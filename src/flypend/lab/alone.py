@@ -82,9 +82,7 @@ def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[
 def _kind(setting: dict[str, Any]) -> str:
     """What machine code is for: the `kind` of web/src/lab/setting.js."""
     vehicle, law, plant = setting["vehicle"], setting["law"], setting["plant"]
-    return "/".join(
-        (vehicle["base"], vehicle["mount"], law["name"], plant["base"], plant.get("sensors", "perfect"))
-    )
+    return "/".join((vehicle["base"], vehicle["mount"], law["name"], plant["base"], plant.get("sensors", "perfect")))
 
 
 def _engine(setting: Setting) -> dict[str, Any]:

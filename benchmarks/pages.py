@@ -71,11 +71,11 @@ def shoot(page, name, colours=256):
 
 
 def compress(path, colours):
-    """Write the picture `path` again, with as many colours, causes of failure in theirs: others compress in haste."""
-    picture, causes = Image.open(path).convert("RGB"), [ImageColor.getrgb(colour) for colour in CAUSES.values()]
-    found = picture.quantize(colours - len(causes), Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
+    """Write the picture `path` again, with as many colours, paper and causes of failure in theirs: others compress in haste."""
+    picture, kept = Image.open(path).convert("RGB"), [ImageColor.getrgb(colour) for colour in ("white", *CAUSES.values())]
+    found = picture.quantize(colours - len(kept), Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
     few = Image.new("P", (1, 1))
-    few.putpalette([*found.getpalette()[: 3 * (colours - len(causes))], *chain.from_iterable(causes)])
+    few.putpalette([*found.getpalette()[: 3 * (colours - len(kept))], *chain.from_iterable(kept)])
     picture.quantize(palette=few, dither=Image.Dither.NONE).save(path, optimize=True)
 
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import matplotlib
+import numpy as np
 from PIL import Image, ImageColor
 from playwright.sync_api import sync_playwright
 
@@ -34,6 +35,7 @@ DOCS = Path(__file__).parents[1] / "docs"
 PICTURES = DOCS / "img"
 CELL = re.compile(r"^# %% [^\n]+ \| api/(\S+): [^\n]+\n(.*?)(?=^# %%|\Z)", re.MULTILINE | re.DOTALL)
 SIZE = {"width": 1280, "height": 800}
+PAPER = 248  # of 255: what is as bright as this is white
 SETTLE = 1500  # ms until the camera has arrived
 FIGURE = {"width": 704, "height": 432}  # as docs/site/static/flypend.css shows it
 MOMENTS = {"lqr": 1.0, "carry": 3.0, "throw": 0.6, "catch": 1.4, "rotors": 1.25}  # s: what a figure is about
@@ -71,11 +73,13 @@ def shoot(page, name, colours=256):
 
 
 def compress(path, colours):
-    """Write the picture `path` again, with as many colours, paper and causes of failure in theirs: others compress in haste."""
-    picture, kept = Image.open(path).convert("RGB"), [ImageColor.getrgb(colour) for colour in ("white", *CAUSES.values())]
-    found = picture.quantize(colours - len(kept), Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
+    """Write the picture `path` again, with as many colours, causes of failure in theirs: others compress in haste."""
+    picture, causes = Image.open(path).convert("RGB"), [ImageColor.getrgb(colour) for colour in CAUSES.values()]
+    found = picture.quantize(colours - len(causes), Image.Quantize.MAXCOVERAGE, kmeans=4, dither=Image.Dither.NONE)
     few = Image.new("P", (1, 1))
-    few.putpalette([*found.getpalette()[: 3 * (colours - len(kept))], *chain.from_iterable(kept)])
+    palette = np.reshape(found.getpalette(), (-1, 3))[: colours - len(causes)]
+    palette[palette.min(axis=1) > PAPER] = 255
+    few.putpalette([*palette.ravel().tolist(), *chain.from_iterable(causes)])
     picture.quantize(palette=few, dither=Image.Dither.NONE).save(path, optimize=True)
 
 

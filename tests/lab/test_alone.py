@@ -136,13 +136,14 @@ def test_a_figure_plays_only_in_sight_and_leaves_the_wheel_to_its_page(offline, 
     frame.wait_for_function("() => !window.flypend.playing()")
 
 
-def test_a_figure_takes_the_theme_of_the_page_around_it(offline, chapters, tmp_path):
+def test_a_figure_takes_theme_and_letters_of_the_page_around_it(offline, chapters, tmp_path):
     (tmp_path / "text.html").write_text(f'<title>Text</title><iframe src="{chapters.as_uri()}?figure=throw"></iframe>')
     page = offline((tmp_path / "text.html").as_uri(), color_scheme="light")
     frame = page.frames[1]
     frame.wait_for_function("() => window.flypend")
-    page.evaluate("frames[0].postMessage({ theme: 'dark' }, '*')")
+    page.evaluate("frames[0].postMessage({ theme: 'dark', letters: 2 }, '*')")
     frame.wait_for_function("document.documentElement.dataset.theme === 'dark'")
+    assert frame.evaluate("getComputedStyle(document.documentElement).fontSize") == "28px"
 
 
 @pytest.mark.parametrize(

@@ -40,7 +40,7 @@ export class Viewer {
     this.theme = new Theme(palette, (colours) => this.#paint(colours));
     this.#choices();
     this.flights = [];
-    addEventListener("message", ({ source, data }) => source === parent && this.theme.set(data?.theme)); // of the page around a frame
+    addEventListener("message", ({ source, data }) => source === parent && source !== window && this.#suit(data)); // of the page around a frame
     this.theme.set(this.theme.name); // before the scene is measured: borders have their width by their colours
     if (runs.length) this.load(runs);
     this.layouts.root.hidden = this.flights.length < 2;
@@ -70,6 +70,12 @@ export class Viewer {
     if (this.flights.length < 2) this.layout("overlay");
     this.#redraw();
     this.wake();
+  }
+
+  /** Take theme and size of letters of the page around. */
+  #suit(data) {
+    if (data?.letters > 0) document.documentElement.style.fontSize = `${14 * data.letters}px`;
+    this.theme.set(data?.theme);
   }
 
   /** Play by itself, see opening.js; to those who want little motion, say how. */

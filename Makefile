@@ -54,8 +54,8 @@ docs: setup
 	$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build
 	@echo open docs/_build/index.html
 
-# The pictures of README and docs, but for those of `flypend check` and `flypend plan`, whose pages have their commands:
-# these take minutes to an hour.
+# The pictures of README and docs, but for those of `flypend check`, `flypend limit` and the plan through a window, whose
+# pages have their commands: these take minutes to an hour.
 pictures: setup
 	$(BIN)/python -m benchmarks.diagrams
 	$(BIN)/python -m benchmarks.clips

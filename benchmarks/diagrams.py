@@ -283,6 +283,25 @@ def compiler_pipeline() -> Drawing:
     return draw
 
 
+def plan_race() -> Drawing:
+    """Return how guesses become a plan."""
+    rows = (
+        ("Guesses", "the rod is pumped up in several ways"),
+        ("Linearise", "all stages, about the guess"),
+        ("Riccati recursion", "limits as a barrier; gives commands and feedback"),
+        ("Simulate", "the nonlinear equations, with the feedback"),
+        ("Plan", "the best that keeps every constraint and hovers"),
+    )
+    draw = Drawing(388)
+    middles = stack(draw, rows, 8, 8, 330)
+    draw.arrow((338, middles[3]), (356, middles[3]), (356, middles[1]), (341, middles[1]))
+    draw.text(411, middles[2] - 8, "again, until", "small")
+    draw.text(411, middles[2] + 8, "it converges", "small")
+    draw.arrow((338, middles[4]), (468, middles[4]), (468, middles[0]), (341, middles[0]))
+    draw.text(400, middles[0] - 8, "none: more time", "small")
+    return draw
+
+
 def planning_phases() -> Drawing:
     """Return who flies when, while plans are made in flight."""
     draw = Drawing(196)
@@ -529,6 +548,7 @@ DIAGRAMS = {
     "theorem-cascade": theorem_cascade,
     "sensor-timing": sensor_timing,
     "compiler-pipeline": compiler_pipeline,
+    "plan-race": plan_race,
     "planning-phases": planning_phases,
     "lyapunov": lyapunov,
     "certified-set": certified_set,

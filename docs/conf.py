@@ -19,6 +19,7 @@ author = "The flypend authors"
 release = version = __version__
 extensions = [
     "accessible",
+    "live",
     "mathml",
     "sources",
     "myst_nb",
@@ -34,7 +35,7 @@ exclude_patterns = ["_build", "jupyter_execute", "notebooks"]  # which are for C
 templates_path = ["site/templates"]
 html_static_path = ["site/static"]
 html_css_files = ["flypend.css"]
-html_js_files = [("scrolling.js", {"defer": "defer"})]
+html_js_files = [("pages.js", {"defer": "defer"})]
 html_theme = "furo"
 html_title = "flypend"
 html_show_sphinx = False

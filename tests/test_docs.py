@@ -22,6 +22,7 @@ from benchmarks.diagrams import DIAGRAMS
 from flypend import palette
 from flypend.cli.app import app
 from flypend.envs.task import upright
+from flypend.lab.controls import figures, story
 from flypend.model.table import vehicle_names
 from flypend.studies.sweep.chunk import CAUSES
 
@@ -74,6 +75,37 @@ def test_formulas_are_elements_that_browsers_draw(site):
     assert page.count('<math display="block"') >= 5
     source = (ROOT / "docs" / "model" / "equations.md").read_text(encoding="utf-8")
     assert page.count("<math ") == len(re.findall(r"\$\$.*?\$\$|\$[^$]+?\$", source, flags=re.DOTALL))
+
+
+def test_live_figures_are_loaded_where_they_are_seen_and_pictures_without_scripts(site, chromium):
+    stills = {path.stem.partition("-")[2] for path in (ROOT / "docs" / "img").glob("live-*.png")}
+    assert stills == {"chapters"} | {step["name"] for step in [*story(), *figures()]}
+    page = (site / "laws" / "inverted.html").read_text(encoding="utf-8")
+    assert (
+        len(re.findall(r'<iframe src="\.\./gallery/chapters\.html\?figure=\w+" title="[^"]+" loading="lazy">', page))
+        == 2
+    )
+    for scripts, seen in ((True, "iframe"), (False, "img")):
+        context = chromium.new_context(offline=True, java_script_enabled=scripts)
+        page = context.new_page()
+        page.goto((site / "laws" / "theorem.html").as_uri())
+        assert [
+            one.evaluate("one => one.localName") for one in page.locator(".live > *").all() if one.is_visible()
+        ] == [seen]
+        context.close()
+
+
+# Pages that are looked up, or worked through with a pencil.
+LONG = ("theorem-proof", "-appendix")
+MOST_WORDS = 1500
+
+
+@pytest.mark.parametrize("path", [path for path in PAGES if not path.stem.endswith(LONG)], ids=lambda path: path.stem)
+def test_a_page_is_read_in_one_sitting(path):
+    text = re.sub(r"```.*?```|\$\$.*?\$\$", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+    text = re.sub(r"^(?:    |\||#).*$", "", text, flags=re.MULTILINE)  # code, tables, headings
+    text = re.sub(r"!\[[^\]]*\]\([^)]*\)|(?<=\])\([^)]*\)|\$[^$]*\$|`[^`]*`", "", text)
+    assert len(re.findall(r"[A-Za-z']+", text)) <= MOST_WORDS
 
 
 def test_the_site_needs_no_network(site):

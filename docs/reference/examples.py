@@ -89,7 +89,10 @@ vehicle, hanging = fp.vehicle("hehn2011").replace(mount="hub"), fp.State(y=(0, 0
 run = fp.simulate(vehicle, fp.laws.lqr(), hanging, duration=4)
 print(run.outcome.status, run.outcome.time, run.outcome.reason)
 
-# %% Criterion
+# %% Criterion | api/criterion.png: The rod's lean falls below the tolerance and stays there for the time to hold
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
 strict = fp.Criterion(rod=0.02, position=0.05, hold=2.0)  # rad, m, s
@@ -97,29 +100,58 @@ vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
 run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=8)
 print(fp.metrics(run, strict).success)
 
-# %% metrics, Metrics
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.semilogy(run.t, np.linalg.norm(run.y - (0, 0, 1), axis=1))
+axes.axhline(strict.rod, color="grey", linestyle="--")
+axes.axvspan(run.t[-1] - strict.hold, run.t[-1], alpha=0.2)
+axes.set(xlabel="t (s)", ylabel="rod from upright, |y − e₃|")
+figure.savefig("criterion.png")
+
+# %% metrics, Metrics | api/metrics.png: The pivot's distance over time, with settling time and excursion
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
 run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=6)
-print(fp.metrics(run).settling, fp.metrics(run).excursion)  # s, m
+found = fp.metrics(run)
+print(found.settling, found.excursion)  # s, m
 
-# %% recoveries, Recovery
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, np.linalg.norm(run.x, axis=1))
+axes.axvline(found.settling, color="grey", linestyle="--")
+axes.axhline(found.excursion, color="grey", linestyle=":")
+axes.set(xlabel="t (s)", ylabel="distance of the pivot (m)")
+figure.savefig("metrics.png")
+
+# %% recoveries, Recovery | api/recoveries.png: The pivot's distance over time; the recovery is shaded
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
 run = fp.simulate(vehicle, fp.laws.inverted(), start, duration=6)
-for recovery in fp.recoveries(run):
+found = fp.recoveries(run)
+for recovery in found:
     print(recovery.time, recovery.distance, recovery.height_lost)  # s, m, m
 
-# %% State
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, np.linalg.norm(run.x, axis=1))
+for recovery in found:
+    axes.axvspan(recovery.begin, recovery.begin + recovery.time, alpha=0.2)
+axes.set(xlabel="t (s)", ylabel="distance of the pivot (m)")
+figure.savefig("recoveries.png")
+
+# %% State | free-body.svg: The state and the forces: thrust along z at the pivot, tension along the rod y
 import flypend as fp
 
 start = fp.State(x=(1, 0, 2), y=(0, 0.6, 0.8), omega=(0, 0, 3))  # m, unit vector, rad/s
 print(start.z, start.packed().shape)
 print(start.flipped().y)  # the same start with e₃ along gravity
 
-# %% Wrench
+# %% Wrench | free-body.svg: Thrust acts along z at the pivot, the moment about the body axes
 import flypend as fp
 
 print(fp.Wrench(thrust=5.4, moment=(0, 0.01, 0)))  # N; N m in the body frame
@@ -158,13 +190,23 @@ body = fp.Body(disc_radius=0.0635, arm_radius=0.006, hub_radius=0.03)  # m
 vehicle = fp.vehicle("hehn2011").replace(mount="hub", body=body)
 print(vehicle.body.disc_radius)
 
-# %% Air
+# %% Air | api/air.png: The pivot's distance during a swing-up, with air and without
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
 air = fp.Air(rotor_drag=0.05, inflow=0.1, body_drag=(5e-3, 5e-3, 1e-2))
 vehicle, start = fp.vehicle("hehn2011").replace(air=air), fp.State(y=(0, 0, -1))
-run = fp.simulate(vehicle, fp.laws.inverted(), start, 6, plant=fp.Plant(air="all"))
-print(fp.metrics(run).success)
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+for label, plant in {"air": fp.Plant(air="all"), "no air": fp.Plant()}.items():
+    run = fp.simulate(vehicle, fp.laws.inverted(), start, 6, plant=plant)
+    print(label, fp.metrics(run).success)
+    axes.plot(run.t, np.linalg.norm(run.x, axis=1), label=label)
+axes.set(xlabel="t (s)", ylabel="distance of the pivot (m)")
+axes.legend()
+figure.savefig("air.png")
 
 # %% uniform_rod
 import flypend as fp
@@ -194,7 +236,9 @@ run = fp.simulate(vehicle, fp.laws.almost_global(), hanging, duration=6, plant="
 V = run.signals["V"]
 print(V[0], V[-1], (V[1:] <= V[:-1] * (1 + 1e-9)).all())  # it never rises
 
-# %% laws.almost_global_lag
+# %% laws.almost_global_lag | api/lag.png: V falls through the rotors' lag by many powers of ten
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, -0.8))
@@ -203,6 +247,11 @@ run = fp.simulate(vehicle, law, start, duration=6, plant=fp.Ideal(lag=True, roto
 V = run.signals["V"]
 print(V[0], V[-1], (V[1:] <= V[:-1] * (1 + 1e-9)).all())  # it never rises
 
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.semilogy(run.t, V)
+axes.set(xlabel="t (s)", ylabel="V")
+figure.savefig("lag.png")
+
 # %% laws.repaired | lyapunov.svg: V along flights under the repaired law falls; under the corrected law it rises first
 import flypend as fp
 
@@ -210,7 +259,7 @@ vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, -0.6))  # e₃ alo
 run = fp.simulate(vehicle, fp.laws.repaired(), start, duration=8, plant="ideal")
 print(run.y[-1].round(3))  # it hangs
 
-# %% laws.supervised
+# %% laws.supervised | certified-set.svg: Where Theorem B's law takes over: a set around hover, to scale
 import flypend as fp
 
 vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
@@ -220,26 +269,36 @@ print(
     fp.metrics(run).success, run.t[run.signals["certified"] == 1][0]
 )  # s, at the handover
 
-# %% laws.learned
+# %% laws.learned | api/learned.png: The path of the pivot from the side: under the learned law it stays nearer than under the inverted law
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
-print(fp.metrics(fp.simulate(vehicle, fp.laws.learned(), hanging, duration=6)).success)
 
-# %% laws.lqr
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+for law in (fp.laws.learned(), fp.laws.inverted()):
+    run = fp.simulate(vehicle, law, hanging, duration=6)
+    print(law.name, fp.metrics(run).success)
+    axes.plot(run.x[:, 0], run.x[:, 2], label=law.name)
+axes.set(xlabel="x₁ (m)", ylabel="x₃ (m)", aspect="equal")
+axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+figure.savefig("learned.png")
+
+# %% laws.lqr | live-lqr.png: An LQR balances a rod that leans a little; lean it further
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.28, 0, 0.96))  # it leans a little
 print(fp.metrics(fp.simulate(vehicle, fp.laws.lqr(), start, duration=6)).success)
 
-# %% laws.corrected
+# %% laws.corrected | live-carry.png: Under the corrected law the rod comes to rest hanging, and the vehicle falls
 import flypend as fp
 
 vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, 0.6))
 run = fp.simulate(vehicle, fp.laws.corrected(), start, duration=6.5, plant="ideal")
 print(run.y[-1].round(3))  # e₃ is along gravity: it hangs
 
-# %% laws.printed
+# %% laws.printed | live-printed.png: Experiment 3 under the printed law, which becomes singular
 import flypend as fp
 
 vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, 0.6), y_dot=(0, 1, 0))
@@ -330,11 +389,19 @@ import flypend as fp
 gain = fp.Gain("k_p", 4.0, "1/s²", "Stiffness of the rod", fp.laws.Bounds(low=0.0))
 print(gain.name, gain.default, gain.unit)
 
-# %% linearise
+# %% linearise | api/eigenvalues.png: Eigenvalues of the closed loop at hover: all but yaw's lie left of the imaginary axis
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 hover = fp.linearise(fp.laws.inverted(), fp.vehicle("hehn2011"))
 print(sorted(hover.eigenvalues.real)[:3])  # 1/s
+
+figure, axes = plt.subplots(figsize=(4, 3), layout="constrained")
+axes.axvline(0, color="grey", linewidth=0.8)
+axes.plot(hover.eigenvalues.real, hover.eigenvalues.imag, "x")
+axes.set(xlabel="real part (1/s)", ylabel="imaginary part (rad/s)")
+figure.savefig("eigenvalues.png")
 
 # %% references.hover
 import flypend as fp
@@ -344,13 +411,22 @@ law = fp.laws.inverted(hover((1.0, 0.0, 0.5)))
 run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
 print(run.x[-1].round(2))
 
-# %% references.line
+# %% references.line | api/line.png: The pivot catches up with a reference that moves away, and stays with it
+import matplotlib.pyplot as plt
+
 import flypend as fp
 from flypend.laws.references import line
 
 law = fp.laws.inverted(line(velocity=(0.5, 0, 0)))  # m/s
 run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=6)
 print(run.x[-1].round(2))
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, run.x[:, 0], label="pivot")
+axes.plot(run.t, run.x_ref[:, 0], "--", label="reference")
+axes.set(xlabel="t (s)", ylabel="x₁ (m)")
+axes.legend()
+figure.savefig("line.png")
 
 # %% references.circle | api/circle.png: The vehicle's path from above: from the centre onto the circle; the bob leans inwards
 import matplotlib.pyplot as plt
@@ -416,7 +492,9 @@ import flypend as fp
 fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))).save("plan.nc")
 print(fp.load_plan("plan.nc").excursion)
 
-# %% track
+# %% track | api/track.png: The tracked flight lies on its plan
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8))
@@ -424,7 +502,14 @@ plan = fp.plan(vehicle, start)
 run = fp.simulate(vehicle, fp.track(plan), start, plan.duration + 2)
 print(fp.metrics(run).success)
 
-# %% plan_and_track
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, run.y[:, 2], label="flown")
+axes.plot(plan.t, plan.y[:, 2], "--", label="planned")
+axes.set(xlabel="t (s)", ylabel="height of the rod, y₃")
+axes.legend()
+figure.savefig("track.png")
+
+# %% plan_and_track | plan-map.png: Excursion of law, nmpc and plan over the sphere of the rod
 import flypend as fp
 
 vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(2, seed=1)
@@ -437,7 +522,7 @@ import flypend as fp
 plans = fp.plan_ensemble(fp.vehicle("hehn2011"), fp.random_starts(2, seed=1))
 print([plan.excursion for plan in plans])
 
-# %% Constraints
+# %% Constraints | plan-under-the-bar.png: A plan that keeps a bar above the rod
 import flypend as fp
 
 keep = fp.Constraints(floor=-1.0, speed=4.0)  # m, m/s
@@ -481,19 +566,28 @@ axes.set(xlabel="t (s)", ylabel="height of the rod, y₃")
 axes.legend()
 figure.savefig("plant.png")
 
-# %% Ideal
+# %% Ideal | lyapunov.svg: V along flights on the ideal plant
 import flypend as fp
 
 vehicle, hanging = fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1))
 run = fp.simulate(vehicle, fp.laws.almost_global(), hanging, 6, plant=fp.Ideal())
 print(run.outcome)
 
-# %% Noise
+# %% Noise | api/noise.png: With noisy measurements the rod trembles about upright
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 noisy = fp.Plant(noise=fp.Noise(x=1e-3, y=3.5e-3, omega=0.02), seed=3)  # m, rad, rad/s
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
-print(fp.simulate(vehicle, fp.laws.inverted(), start, 4, plant=noisy).y[-1].round(3))
+run = fp.simulate(vehicle, fp.laws.inverted(), start, 4, plant=noisy)
+print(run.y[-1].round(3))
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, run.y[:, :2], label=["y₁", "y₂"])
+axes.set(xlabel="t (s)", ylabel="lean of the rod (rad)")
+axes.legend()
+figure.savefig("noise.png")
 
 # %% Sensors | sensor-timing.svg: When readings are taken and when they arrive
 import flypend as fp
@@ -560,7 +654,7 @@ import flypend as fp
 found = fp.trial(fp.vehicle("hehn2011"), runs=4, seed=1)
 print(found.uptime)
 
-# %% study, Study
+# %% study, Study | map.png: What a study of random starts shows: success, settling time and excursion over the sphere of the rod
 import flypend as fp
 
 settings = {"vehicle": "hehn2011", "law": {"name": "lqr"}, "runs": 100, "duration": 6.0}
@@ -600,16 +694,27 @@ import flypend as fp
 
 print(fp.Objective(failure=1.0, settling=0.5, excursion=0.2))
 
-# %% identify, Identified
+# %% identify, Identified | api/identified.png: Numbers of the vehicle, found over true, with their bands
+import matplotlib.pyplot as plt
+
 import flypend as fp
 from flypend.identification.manoeuvre import rehearsal_of, write_log
 
-guess, flown = rehearsal_of(
-    fp.vehicle("hehn2011"), duration=11
-)  # your own log would be here
+true = fp.vehicle("hehn2011")
+guess, flown = rehearsal_of(true, duration=11)  # your own log would be here
 write_log("flight.csv", flown.columns)
 found = fp.identify("flight.csv", guess)
 print(found.vehicle, found.bands["rod_length"])  # m
+
+figure, axes = plt.subplots(figsize=(6, 2.4), layout="constrained")
+names = ["mass", "bob_mass", "rod_length"]
+for row, name in enumerate(names):
+    low, high = (end / getattr(true, name) for end in found.bands[name])
+    axes.plot([low, high], [row, row], linewidth=3)
+    axes.plot(getattr(found.vehicle, name) / getattr(true, name), row, "ko")
+axes.axvline(1, color="grey", linestyle="--")
+axes.set(xlabel="found / true", yticks=range(3), yticklabels=names)
+figure.savefig("identified.png")
 
 # %% sensitivity, Sensitivity
 import flypend as fp
@@ -654,13 +759,13 @@ hidden = rng.normal(size=(32, 24)), np.zeros(32), "tanh"  # weights, biases, act
 law = fp.laws.trained([hidden, (0.01 * rng.normal(size=(4, 32)), np.zeros(4))])
 print(law, fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), 0.1).outcome)
 
-# %% envs.environment
+# %% envs.environment | env-swing-up.svg: The rod is thrown from hanging and caught upright
 import flypend.envs
 
 world = flypend.envs.environment("swing_up", vehicle="hehn2011", mount="hub")
 print(world.vehicle.mount, world.rate)
 
-# %% envs.Environment
+# %% envs.Environment | env-balance.svg: The rod is kept up and brought home
 import flypend.envs
 
 print(flypend.envs.environment("balance", action="rates").action)
@@ -671,7 +776,7 @@ import flypend.envs
 spread = flypend.envs.Randomisation(mass=(0.9, 1.1), delay=(0.0, 0.02))  # ratio, s
 print(spread.mass, spread.delay)
 
-# %% envs.World
+# %% envs.World | env-balance.svg: The rod is kept up and brought home
 import gymnasium
 
 import flypend.envs
@@ -693,7 +798,7 @@ first = world.step(world.action_space.low)[0]
 world.unwrapped.restore_state(state)
 print((first == world.step(world.action_space.low)[0]).all())
 
-# %% envs.VectorWorlds
+# %% envs.VectorWorlds | env-swing-up.svg: The rod is thrown from hanging and caught upright
 import gymnasium
 
 import flypend.envs
@@ -731,7 +836,7 @@ world.reset(seed=0)
 state = world.unwrapped.save_state()
 print(pickle.loads(pickle.dumps(state)) == state)
 
-# %% envs.Task
+# %% envs.Task | env-swing-up.svg: The rod is thrown from hanging and caught upright
 import dataclasses
 
 import flypend.envs

@@ -9,7 +9,7 @@ from test_lab_page import expect_flight, setting, shown, slider, until
 import flypend as fp
 from benchmarks.frames import AT_REST
 from flypend.lab.alone import chapters_page, page_alone
-from flypend.lab.controls import offer
+from flypend.lab.controls import figures, offer, story
 
 WIDE = {"width": 1280, "height": 800}
 
@@ -95,6 +95,55 @@ def test_the_chapters_are_a_page_of_their_own(offline, tmp_path):
         if page.locator(".step .next").is_visible():
             page.locator(".step .next").click()
             shown(page)
+
+
+@pytest.fixture(scope="module")
+def chapters(tmp_path_factory):
+    path = tmp_path_factory.mktemp("figures") / "chapters.html"
+    path.write_text(chapters_page(), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("step", [*story(), *figures()], ids=lambda step: step["name"])
+def test_a_figure_has_one_slider_and_one_plot_and_flies_as_in_the_package(offline, chapters, step):
+    page = offline(f"{chapters.as_uri()}?figure={step['name']}", viewport={"width": 704, "height": 432})
+    shown(page)
+    page.evaluate("flypend.pause()")
+    assert setting(page) == step["setting"]
+    assert [one.get_attribute("data-path") for one in page.locator(".slider:visible").all()] == [step["drag"]]
+    told = page.locator(".plot:visible canvas").get_attribute("aria-label")
+    assert told.startswith(f"{step['plot']} over time")
+    assert page.evaluate("document.documentElement.scrollHeight") <= 432
+    if step["name"] not in {"printed", "mocap"}:  # whose end the page finds to a step; whose noise is drawn
+        expect_flight(page)
+
+
+def test_a_figure_plays_only_in_sight_and_leaves_the_wheel_to_its_page(offline, chapters, tmp_path):
+    around = f"""<!doctype html><title>Text</title><body style="margin: 0"><div style="height: 3000px"></div>
+      <iframe src="{chapters.as_uri()}?figure=throw" width="704" height="432"></iframe><div style="height: 3000px">"""
+    (tmp_path / "text.html").write_text(around, encoding="utf-8")
+    page = offline((tmp_path / "text.html").as_uri(), viewport={"width": 800, "height": 600})
+    frame = page.frames[1]
+    frame.wait_for_function("() => window.flypend")
+    page.wait_for_timeout(500)
+    assert frame.evaluate("flypend.number()") == 0  # nothing was asked for
+    page.evaluate("scrollTo(0, 2900)")
+    frame.wait_for_function("() => window.flypend.shown() && window.flypend.playing()")
+    page.mouse.move(200, 250)
+    page.mouse.wheel(0, 200)
+    page.wait_for_function("scrollY > 3000")
+    page.evaluate("scrollTo(0, 0)")
+    frame.wait_for_function("() => !window.flypend.playing()")
+
+
+def test_a_figure_takes_theme_and_letters_of_the_page_around_it(offline, chapters, tmp_path):
+    (tmp_path / "text.html").write_text(f'<title>Text</title><iframe src="{chapters.as_uri()}?figure=throw"></iframe>')
+    page = offline((tmp_path / "text.html").as_uri(), color_scheme="light")
+    frame = page.frames[1]
+    frame.wait_for_function("() => window.flypend")
+    page.evaluate("frames[0].postMessage({ theme: 'dark', letters: 2 }, '*')")
+    frame.wait_for_function("document.documentElement.dataset.theme === 'dark'")
+    assert frame.evaluate("getComputedStyle(document.documentElement).fontSize") == "28px"
 
 
 @pytest.mark.parametrize(

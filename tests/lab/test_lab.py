@@ -32,7 +32,7 @@ from flypend.flight.verdict import goal, verdict
 from flypend.geometry import cross, dot
 from flypend.lab import answers
 from flypend.lab.answers import answer, engine_of
-from flypend.lab.controls import offer, sliders
+from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poke_state
 from flypend.lab.map import region
@@ -233,6 +233,19 @@ def test_the_chapters_say_what_the_flights_do():
         assert (np.diff(V) <= 1e-9 * V[0]).all()
     # The lag at the end of its slider is too much.
     assert not flown(rotors, rotors["drag"], ends[rotors["title"]][1])[1]["good"]
+
+
+def test_a_figure_shows_what_its_page_says():
+    """At the ends of the slider and where it begins: docs/how-to/lqr.md, flight/sensors.md, model/machine.md."""
+    lqr, mocap, hub = figures()
+    assert all(flown(step)[1]["good"] for step in (lqr, mocap, hub))
+    assert [told["good"] for _, told in dragged(lqr, np.radians([0.0, 30.0, 60.0, 90.0]))] == [True, True, False, False]
+    late = [copy.deepcopy(mocap) for _ in range(2)]
+    for step, seconds in zip(late, (0.024, 0.04), strict=True):  # what the estimator finds, and the end of the slider
+        step["setting"]["plant"]["defects"] = {"untold_latency": seconds}
+    assert [flown(step)[1]["good"] for step in late] == [True, False]
+    assert 0.01 < np.min(flown(hub)[0].clearance) < 0.015
+    assert dragged(hub, [np.pi / 2])[0][0].outcome.status == "collided"
 
 
 def test_a_random_start_is_its_seed():

@@ -21,7 +21,15 @@ def differing(one, other):
 
 
 @pytest.mark.parametrize(
-    "name", ["vehicles", "machine", "swing-up", *(pytest.param(n, marks=pytest.mark.slow) for n in ("replay", "lab"))]
+    "name",
+    [
+        "vehicles",
+        "machine",
+        "swing-up",
+        "plan-under-the-bar",
+        "plan-out-and-back",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("replay", "lab", "live")),
+    ],
 )
 def test_a_picture_is_of_todays_code(name, tmp_path, monkeypatch):
     monkeypatch.setattr(pages, "PICTURES", tmp_path)

@@ -40,6 +40,7 @@ export class Viewer {
     this.theme = new Theme(palette, (colours) => this.#paint(colours));
     this.#choices();
     this.flights = [];
+    addEventListener("message", ({ source, data }) => source === parent && source !== window && this.#suit(data)); // of the page around a frame
     this.theme.set(this.theme.name); // before the scene is measured: borders have their width by their colours
     if (runs.length) this.load(runs);
     this.layouts.root.hidden = this.flights.length < 2;
@@ -71,6 +72,12 @@ export class Viewer {
     this.wake();
   }
 
+  /** Take theme and size of letters of the page around. */
+  #suit(data) {
+    if (data?.letters > 0) document.documentElement.style.fontSize = `${14 * data.letters}px`;
+    this.theme.set(data?.theme);
+  }
+
   /** Play by itself, see opening.js; to those who want little motion, say how. */
   open(settled) {
     if (!calm()) {
@@ -90,7 +97,8 @@ export class Viewer {
     this.opening = null;
   }
 
-  #plot(wanted) {
+  #plot(every) {
+    const wanted = this.only ? every.filter(({ plain }) => plain === this.only) : every;
     for (const plot of this.plots.splice(wanted.length)) plot.root.remove();
     wanted.forEach((options, i) => {
       if (this.plots[i]) this.plots[i].load(options);

@@ -12,7 +12,7 @@ from flypend import errors, palette
 from flypend.flight.live import draw_starts, live_loop
 from flypend.flight.live_engine import engine_facts
 from flypend.flight.verdict import goal
-from flypend.lab.controls import offer, sliders
+from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.setting import Setting, setting_of
 from flypend.laws import law_names
 from flypend.pages import replay
@@ -48,11 +48,15 @@ def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *
 
 
 def chapters_page() -> str:
-    """Return the derivation in eight chapters as HTML that flies by itself, offline, from the first on."""
-    every = offer()
-    settings = {_kind(step["setting"]): step["setting"] for step in every["story"]}
+    """Return the derivation in eight chapters as HTML that flies by itself, offline, from the first on.
+
+    With an address that ends in ?figure= and the name of a step of `story` or `figures` it is a figure of that step.
+    """
+    every, more = offer(), figures()
+    settings = {_kind(step["setting"]): step["setting"] for step in [*every["story"], *more]}
     first = every["story"][0]["setting"]
-    return _page({**every, "first": first, "told": True}, list(settings.values()), CHAPTERS, lambda *_: None)
+    every |= {"first": first, "told": True, "figures": more}
+    return _page(every, list(settings.values()), CHAPTERS, lambda *_: None)
 
 
 def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str, tell: Tell) -> str:
@@ -77,8 +81,8 @@ def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[
 
 def _kind(setting: dict[str, Any]) -> str:
     """What machine code is for: the `kind` of web/src/lab/setting.js."""
-    vehicle = setting["vehicle"]
-    return "/".join((vehicle["base"], vehicle["mount"], setting["law"]["name"], setting["plant"]["base"], "perfect"))
+    vehicle, law, plant = setting["vehicle"], setting["law"], setting["plant"]
+    return "/".join((vehicle["base"], vehicle["mount"], law["name"], plant["base"], plant.get("sensors", "perfect")))
 
 
 def _engine(setting: Setting) -> dict[str, Any]:
@@ -106,5 +110,5 @@ def _available(every: dict[str, Any], settings: Sequence[dict[str, Any]], engine
         "laws": list(dict.fromkeys(setting["law"]["name"] for setting in settings)),
         "plants": {name: every["plants"][name] for name in PLANTS}, "sensors": {"perfect": every["sensors"]["perfect"]},
         "first": first, "starts": every["starts"], "story": story, "experiments": papers, "alone": True,
-        "told": every.get("told", False),
+        "told": every.get("told", False), "figures": every.get("figures", []),
     }  # fmt: skip

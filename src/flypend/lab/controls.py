@@ -79,63 +79,79 @@ SHOWN = "3"  # the experiment of the paper whose printed law flies longest
 LASTING = 10.0  # s: the paper ends at 6.5 s, before the rod has come to rest
 TILT = "start.y.tilt"  # of the rod from upright
 LEAN = 20.0  # degrees, of a rod that is balanced at once
+# What a figure plots: `plain` in web/src/series.js.
+ROD, THRUST, ROTORS = "Rod y₃ and thrust axis z₃", "Thrust", "Rotor forces"
+DISTANCE, CLEARANCE, LYAPUNOV = "Distance from the reference", "Clearance of the rod", "Lyapunov function V"
 
 
 def story() -> list[dict[str, Any]]:
     """Return the chapters of the derivation, which share one scene.
 
-    Each has a `title`, `words`, the `setting` of its flight, and `drag`, the path of the slider beside the words; some
-    have a `phase` of the flight (web/src/phases.js) at which it is shown.
+    Each has a `name`, a `title`, `words`, the `setting` of its flight, `drag`, the path of the slider beside the words,
+    and `plot`, the quantity that a figure of it shows (`plain` in web/src/series.js); some have a `phase` of the flight
+    (web/src/phases.js) at which it is shown.
     """
     return [
         _step(
-            "A rod on a ball joint",
+            "joint", "A rod on a ball joint", DISTANCE,
             "No motor turns the rod. The thrust moves the joint: its part across the rod turns the rod, its part along "
             "the rod carries the bob. Let the rod lean further, and the vehicle has to travel further to get below it.",
             TILT, _setting(_tilt(LEAN)),
         ),
         _step(
-            "Why the printed law fails",
+            "printed", "Why the printed law fails", ROD,
             "Experiment 3 of the paper under its law, letter by letter. The damping has the wrong sign: it drives the "
             "rod. With any gain of this slider the flight ends at a singular term, or the rod never comes to rest.",
             "law.gains.k_d", _experiment(SHOWN, "printed", LASTING),
         ),
         _step(
-            "Carry the bob",
+            "carry", "Carry the bob", ROD,
             "With the sign corrected the rod comes to rest, but along gravity: it hangs, and the vehicle falls. This "
             "law shapes the thrust across the rod and leaves the bob to gravity. It falls wherever the rod starts.",
             TILT, _experiment(SHOWN, "corrected", LASTING),
         ),
         _step(
-            "Throw",
+            "throw", "Throw", THRUST,
             "The inverted law uses both parts of the thrust. To flip a hanging rod it must push down for a moment, and "
             "nothing is held up. So it throws the bob first. Throw faster, and the bob rises higher.",
             "law.gains.throw_speed", _setting(_tilt(180.0)), phase="climbs",
         ),
         _step(
-            "Flip",
+            "flip", "Flip", ROD,
             "The vehicle turns over, dives past the bob, and the rod swings up. Turning takes time, so the thrust axis "
             "aims at the force that will be needed when it arrives. Look ahead too little or too far, and it fails.",
             "law.gains.coast_time", _setting(_tilt(180.0)), phase="flips",
         ),
         _step(
-            "Catch",
+            "catch", "Catch", ROD,
             "Below the bob the vehicle pushes up again, and damping stops the swing. With little damping the rod takes "
             "longer to come to rest; with too much of it the catch is missed.",
             "law.gains.rod_damping", _setting(_tilt(180.0)), phase="catches",
         ),
         _step(
-            "V falls",
+            "proof", "V falls", LYAPUNOV,
             "Another law for the same machine comes with a proof: a Lyapunov function V falls along every solution. "
             "Start the rod elsewhere, and V still falls (second plot). The proof is for ideal rotors.",
             TILT, _setting(_tilt(150.0), "almost_global", plant="ideal", duration=LASTING),
         ),
         _step(
-            "What the rotors forbid",
+            "rotors", "What the rotors forbid", ROTORS,
             "Rotors push one way, up to a limit, and answer late. Drag the lag to its end, and the machine turns too "
             "slowly to catch the rod.",
             "plant.lag", _setting(_tilt(180.0)),
         ),
+    ]  # fmt: skip
+
+
+def figures() -> list[dict[str, Any]]:
+    """Return what figures of the documentation show beyond the chapters, as `story` does."""
+    seen = _setting(_tilt(180.0))
+    seen["plant"] = {"base": "rotors", "sensors": "mocap"}
+    hub = {"base": "hehn2011", "mount": "hub"}
+    return [
+        _step("lqr", "An LQR", ROD, "", TILT, _setting(_tilt(15.0), "lqr")),
+        _step("mocap", "Motion capture", ROD, "", "plant.defects.untold_latency", seen),
+        _step("hub", "Between the arms", CLEARANCE, "", TILT, _setting(_tilt(180.0), vehicle=hub), "flips"),
     ]  # fmt: skip
 
 
@@ -145,8 +161,12 @@ def _tilt(degrees: float) -> dict[str, Any]:
     return plain(State(y=(np.sin(lean), 0.0, np.cos(lean))))
 
 
-def _step(title: str, words: str, drag: str, setting: dict[str, Any], phase: str | None = None) -> dict[str, Any]:
-    return {"title": title, "words": words, "drag": drag, "setting": setting, "phase": phase}
+def _step(
+    name: str, title: str, plot: str, words: str, drag: str, setting: dict[str, Any], phase: str | None = None
+) -> dict[str, Any]:
+    return {
+        "name": name, "title": title, "plot": plot, "words": words, "drag": drag, "setting": setting, "phase": phase,
+    }  # fmt: skip
 
 
 PAGE = """<!doctype html>

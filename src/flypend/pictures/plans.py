@@ -24,6 +24,8 @@ from flypend.studies.limit import Front, Strays
 from flypend.studies.sweep.bins import EDGE
 
 POSES = 22  # of a rod along its path
+# A legend above the axes, clear of the curves.
+ABOVE = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2, "fontsize": SMALL, "frameon": False}
 WALL = 1.5  # of the height of an opening: what is drawn of its wall on either side
 
 
@@ -47,8 +49,8 @@ def plan_figure(plan: Plan, flown: Trajectory | None = None, windows: Sequence[W
     for limit in plan.vehicle.rotor_limits:
         forces.axhline(limit, color=GREY, lw=0.7, ls=":")
     distance.set(ylabel="distance (m)", ylim=(0, None))
-    distance.legend(fontsize=SMALL, frameon=False)
-    lean.set(ylabel="rod from upright (°)", ylim=(0, None))
+    distance.legend(**ABOVE)
+    lean.set(ylabel="rod lean (°)", ylim=(0, None))
     forces.set(ylabel="rotor forces (N)", xlabel="$t$ (s)")
     rule(figure.axes)
     return figure
@@ -75,7 +77,7 @@ def _side(axes: Any, plan: Plan, flown: Trajectory | None, windows: Sequence[Win
             ends = window.centre + side * np.outer((half, half + WALL * 2 * half), along)
             axes.plot(*(ends @ view).T, color=INK, lw=2.5, solid_capstyle="butt")
     axes.set(xlabel="along the way (m)", ylabel="height (m)", aspect="equal")
-    axes.legend(fontsize=SMALL, frameon=False, loc="upper left")
+    axes.legend(**ABOVE)
 
 
 def front_figure(front: Front, law: Trajectory | None = None) -> Figure:

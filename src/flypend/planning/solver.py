@@ -2,7 +2,7 @@
 
 Each iteration linearises all stages, solves the linear-quadratic problem by `riccati`, and flies its feedback through
 the nonlinear equations, shortening the step until the merit falls. A guess may have gaps between its stages; a step of
-length α leaves 1 − α of them. docs/planning/limit.md derives it.
+length α leaves 1 − α of them. docs/planning/method.md derives it.
 """
 
 from __future__ import annotations

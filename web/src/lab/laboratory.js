@@ -41,7 +41,8 @@ export class Laboratory {
     this.#header();
     this.running = new Running(this);
     this.panel = new Panel(this.main, this);
-    if (this.offer.story?.length) this.story = new Story(this.panel.bar, this.offer.story, this);
+    const figure = this.#figure();
+    if (this.offer.story?.length) this.story = new Story(this.panel.bar, figure ? [{ ...figure, phase: null }] : this.offer.story, this);
     this.handle = new Handle(this.viewer, (y) => this.rod(y), (place) => (this.kiosk ?? this.running).pull(place));
     this.disc = new Disc(this.main, (y) => {
       this.rod(y);
@@ -56,8 +57,28 @@ export class Laboratory {
     this.#undoKeys();
     if (asked() !== null) this.kiosk = new Kiosk(this, { quiet: asked() });
     if (this.setting.unreadable) this.#notice("The address holds no setting that can be read. This is the usual start.");
-    if (this.offer.told && !location.hash) this.story.go(0);
+    if (figure) this.#watched();
+    else if (this.offer.told && !location.hash) this.story.go(0);
     else this.changed();
+  }
+
+  /** The step that the address asks for, as ?figure=throw: the page is then a figure of a text, with one slider and one plot. */
+  #figure() {
+    const name = new URLSearchParams(location.search).get("figure");
+    const figure = name && [...(this.offer.story ?? []), ...(this.offer.figures ?? [])].find((step) => step.name === name);
+    if (!figure) return null;
+    this.main.classList.add("figure");
+    this.viewer.only = figure.plot;
+    return figure;
+  }
+
+  /** Fly a figure when half of it is in sight, and play it by itself only while it is. */
+  #watched() {
+    const { clock } = this.viewer;
+    new IntersectionObserver(([{ isIntersecting }]) => {
+      if (isIntersecting && !this.story.told) this.story.go(0);
+      else if (this.viewer.opening) isIntersecting ? clock.play() : clock.pause();
+    }, { threshold: 0.5 }).observe(this.main);
   }
 
   #header() {

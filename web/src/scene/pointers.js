@@ -1,4 +1,5 @@
 // Mouse, pen and fingers on the picture: one turns the camera, two pinch, the wheel zooms, a double tap resets.
+// In a frame the wheel scrolls what is around it, and zooms with Ctrl.
 
 export function steer(element, rig, changed) {
   const held = new Map();
@@ -26,7 +27,9 @@ export function steer(element, rig, changed) {
     changed();
   };
   const up = (event) => held.delete(event.pointerId);
+  const framed = self !== top;
   const wheel = (event) => {
+    if (framed && !event.ctrlKey) return;
     event.preventDefault();
     rig.move(0, 0, Math.exp(-0.0015 * event.deltaY));
     changed();

@@ -21,3 +21,15 @@ const resized = new ResizeObserver((entries) => {
   }
 });
 for (const wide of document.querySelectorAll("article pre, .table-wrapper, .math-wrapper, .output")) resized.observe(wide);
+
+// Live figures take the theme that is chosen, and letters as large as the page's.
+const dark = matchMedia("(prefers-color-scheme: dark)");
+function paint(frame) {
+  const { theme } = document.body.dataset;
+  const name = theme === "light" || theme === "dark" ? theme : dark.matches ? "dark" : "light";
+  const letters = parseFloat(getComputedStyle(document.documentElement).fontSize) / 16;
+  frame.contentWindow.postMessage({ theme: name, letters }, "*");
+}
+const figures = document.querySelectorAll(".live iframe");
+for (const frame of figures) frame.addEventListener("load", () => paint(frame));
+new MutationObserver(() => figures.forEach(paint)).observe(document.body, { attributeFilter: ["data-theme"] });

@@ -43,6 +43,7 @@ mutants: setup test-tools
 bench: setup
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
 	$(BIN)/python -m benchmarks bench-out
+	$(BIN)/python -m benchmarks.planned_peers
 
 # Which results of the ledger are older than the code that they measure; make results ONLY="mounts circles" measures
 # those again.

@@ -1,17 +1,24 @@
-"""What a user would otherwise pick, IPOPT and Fatrop in CasADi's wheel, on the problem of `flypend.plan`.
+"""What a user would otherwise pick, IPOPT, Fatrop and crocoddyl, on the problem of `flypend.plan`.
 
 python -m benchmarks.planned_peers --runs 12 --seed 2211
 
 Multiple shooting over packed states, from the same guesses: stages, limits of the rotors, cost and tolerances at the
-end are those of a plan. Derivatives are exact, and evaluated in CasADi's virtual machine.
+end are those of a plan. Derivatives are exact: C that CasADi writes, compiled by `cc -O2`. crocoddyl, whose stages have
+no inequalities but the limits of commands, has the least effort alone; see `planned_crocoddyl`.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
+import subprocess
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import chdir
 from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import casadi as ca
@@ -19,7 +26,9 @@ import numpy as np
 
 import flypend as fp
 from benchmarks.plans import PATIENT, VEHICLE, quantiles
+from benchmarks.results import record
 from flypend.compile.llvm.stagewise import WIDTH
+from flypend.flight.metrics import wilson
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints
 from flypend.planning.durations import HORIZONS
@@ -44,22 +53,37 @@ OPTIONS: Mapping[str, dict[str, Any]] = {
         "structure_detection": "auto", "fatrop.print_level": 0, "fatrop.tol": TOLERANCE, "fatrop.max_iter": ITERATIONS,
     },
 }  # fmt: skip
+OF_EFFORT = "crocoddyl"
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What a solver made of a guess: a plan with its verdict, processor time, and of that derivatives, s."""
+    """What a solver made of a guess: a plan with its verdict and cost, processor time, and of that derivatives, s."""
 
     plan: fp.Plan
+    cost: float
     took: float
     derivatives: float
+
+
+Solve = Callable[[Request, Any, Any], Answer]  # (what is asked, states (N + 1, 24 + n), commands (N, n)), own units
+
+
+def compiled(name: str, write: Callable[[str], Any]) -> str:
+    """Return the library of the C that `write` writes to a file here, unless it is there already."""
+    library = Path(f"{name}.so").absolute()
+    if not library.exists():
+        write(f"{name}.c")
+        compiler = [os.environ.get("CC", "cc"), "-O2", "-fPIC", "-shared"]
+        subprocess.run([*compiler, f"{name}.c", "-o", str(library), "-lm"], check=True)
+    return str(library)
 
 
 class Shooting:
     """The problem of `asked` for a general solver: x₀ u₀ x₁ u₁ … x_N, with e as a state that stays as it is.
 
     Constraints come stage by stage, gaps first; the start is one of the first stage, the tolerances of the last. It
-    serves all starts of a vehicle.
+    serves all starts of a vehicle, and all weights of excursion and effort.
     """
 
     def __init__(self, asked: Request) -> None:
@@ -69,19 +93,21 @@ class Shooting:
         numbers, machine = ca.SX(ca.DM(asked.numbers)), Scaled(ca.SX(ca.DM(units.numbers(vehicle))), n)
         timing = ca.SX(ca.DM(step_timing(vehicle.rotor_lag / units.time, h)))
         x, u, after = ca.SX.sym("x", width), ca.SX.sym("u", n), ca.SX.sym("after", width)
-        led = ca.vertcat(step_once(x[:-1], u, timing, machine), x[-1])
-        inside, errors = x[-1] - ca.sumsqr(x[:3]), end_errors(x[:-1], numbers)
-        stages = ca.Function("stage", [x, u, after], [ca.vertcat(after - led, inside)]).map(self.N)
+        led, errors = step_once(x[:-1], u, timing, machine), end_errors(x[:-1], numbers)
+        self.step, self.errors = ca.Function("step", [x[:-1], u], [led]), ca.Function("errors", [x[:-1]], [errors])
+        inside = x[-1] - ca.sumsqr(x[:3])
+        stages = ca.Function("stage", [x, u, after], [ca.vertcat(after - ca.vertcat(led, x[-1]), inside)]).map(self.N)
         end = ca.Function("end", [x], [ca.vertcat(inside, errors)])
 
         z, start = ca.MX.sym("z", (width + n) * self.N + width), ca.MX.sym("start", width - 1)
+        weights = ca.MX.sym("weights", 2)
         body, last = ca.reshape(z[:-width], width + n, self.N), z[-width:]
         X, U = body[:width, :], body[width:, :]
         G, E = stages(X, U, ca.horzcat(X[:, 1:], last)), end(last)
-        effort = asked.numbers[EFFORT] * ca.sumsqr(U - 1) / 2
-        cost = asked.numbers[SHARED] * last[-1] + effort + Settings().end_weight * ca.sumsqr(E[1:]) / 2
+        cost = ca.dot(weights, ca.vertcat(last[-1], ca.sumsqr(U - 1) / 2))
+        cost += Settings().end_weight * ca.sumsqr(E[1:]) / 2
         g = ca.vertcat(G[:-1, 0], X[:-1, 0] - start, ca.vec(G[:, 1:]), E)
-        self.problem = {"x": z, "p": start, "f": cost, "g": g}
+        self.problem = {"x": z, "p": ca.vertcat(start, weights), "f": cost, "g": g}
 
         same, free = np.zeros(2 * width - 1), np.full(width, np.inf)
         ends = np.ones(E.numel() - 1)
@@ -94,10 +120,12 @@ class Shooting:
         }
         self.lacks = ca.Function("lacks", [z, start], [g])
 
-    def solver(self, name: str) -> Any:
-        """Return the solver called `name`."""
+    def solver(self, name: str) -> Solve:
+        """Return what solves by the solver called `name`, whose functions are compiled here."""
         equal = {"equality": (self.bounds["lbg"] == self.bounds["ubg"]).tolist()} if name == "fatrop" else {}
-        return ca.nlpsol(name, name, self.problem, {"print_time": False, **OPTIONS[name], **equal})
+        options = {"print_time": False, **OPTIONS[name], **equal}
+        library = compiled(name, lambda file: ca.nlpsol(name, name, self.problem, options).generate_dependencies(file))
+        return partial(self.solve, ca.nlpsol(name, name, library, options))
 
     def joined(self, states: Any, commands: Any) -> Any:
         """Return the unknowns of `states` (N + 1, 24 + n) and `commands` (N, n), own units, in a ball."""
@@ -111,24 +139,85 @@ class Shooting:
         return float(np.max(np.maximum(self.bounds["lbg"] - g, g - self.bounds["ubg"])))
 
     def solve(self, solver: Any, asked: Request, states: Any, commands: Any) -> Answer:
-        """Solve from `states` (N + 1, 24 + n) and `commands` (N, n), own units."""
+        """Solve from `states` and `commands`; see `Solve`."""
+        numbers = np.append(asked.start, asked.numbers[[SHARED, EFFORT]])
         begin = time.process_time()
-        found = solver(x0=self.joined(states, commands), p=asked.start, **self.bounds)
+        found = solver(x0=self.joined(states, commands), p=numbers, **self.bounds)
         took, stats = time.process_time() - begin, solver.stats()
         derivatives = sum(spent for name, spent in stats.items() if name.startswith("t_proc_nlp_"))
         z = found["x"].full().ravel()
         body, last = z[: -self.width].reshape(self.N, -1), z[-self.width : -1]
-        lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
         ways = np.vstack([body[:, : self.width - 1], last]), body[:, self.width :]
-        what = Found(*ways, float(found["f"]), lacks, "", 0, (float(found["f"]),), 0.0, stats["iter_count"], took)
-        return Answer(plans_of([asked], [what], HORIZONS[0])[0], took, derivatives)
+        return self.judged(asked, z, *ways, stats["iter_count"], took, derivatives)
+
+    def judged(
+        self, asked: Request, z: Any, states: Any, commands: Any, iterations: int, took: float, derivatives: float
+    ) -> Answer:
+        """Return the answer that `states` and `commands`, or the unknowns `z`, are."""
+        lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
+        cost = cost_of(asked, states, commands)
+        what = Found(states, commands, cost, lacks, "", 0, (cost,), 0.0, iterations, took)
+        return Answer(plans_of([asked], [what], HORIZONS[0])[0], cost, took, derivatives)
 
 
-def row(name: str, plans: Sequence[fp.Plan], best: Sequence[fp.Plan], took: Any) -> str:
-    """Format a row: solved, excursion against `best`, and processor time `took`, s."""
-    ratio = [plan.excursion / other.excursion for plan, other in zip(plans, best, strict=True) if plan and other]
-    against = quantiles(ratio, 0.5, 1) if ratio else "none"
-    return f"{name}: solved {sum(map(bool, plans))} of {len(plans)}, ratio {against}; {quantiles(took, 0.5, 1)} s"
+def cost_of(asked: Request, states: Any, commands: Any) -> float:
+    """Return the cost that is `asked` for of `states` (N + 1, 24 + n) and `commands` (N, n), own units."""
+    farthest = np.max(np.sum(states[:, :3] ** 2, axis=1))
+    return float(asked.numbers[SHARED] * farthest + asked.numbers[EFFORT] * np.sum((commands - 1) ** 2) / 2)
+
+
+def of_plan(asked: Request, plan: fp.Plan) -> Answer:
+    """Return a `plan` of ours as an answer."""
+    states = np.column_stack([plan.packed, plan.rotor_forces]) / asked.units.states(asked.rotors)
+    return Answer(plan, cost_of(asked, states, plan.commands / asked.units.force), plan.solve_time, 0.0)
+
+
+def show(name: str, answers: Sequence[Answer], best: Sequence[Answer]) -> None:
+    """Print the row of a solver, its costs against the `best`, and record it."""
+    solved, runs = sum(bool(a.plan) for a in answers), len(answers)
+    ratio = [a.cost / b.cost for a, b in zip(answers, best, strict=True) if a.plan and b.plan] or [np.nan]
+    took = [a.took for a in answers]
+    share = 100 * sum(a.derivatives for a in answers) / sum(took)
+    low, high = (100 * bound for bound in wilson(solved, runs))
+    print(f"{name}: solved {solved} of {runs} ({low:.1f} % to {high:.1f} %), cost {quantiles(ratio, 0, 0.5, 1)}; "
+          f"{quantiles(took, 0.5, 1)} s, derivatives {share:.0f} %", flush=True)  # fmt: skip
+    columns = {"solved": [solved, runs, low, high], "cost, least, p50, most": list(np.quantile(ratio, [0, 0.5, 1]))}
+    record(name, **columns, **{"time p50, most": list(np.quantile(took, [0.5, 1])), "derivatives, %": share})
+
+
+def rivals(shooting: Shooting, asked: Request, names: Sequence[str]) -> dict[str, Solve]:
+    """Return the solvers of these `names` that are installed."""
+    found = {}
+    for name in names:
+        if name != OF_EFFORT:
+            found[name] = shooting.solver(name)
+            continue
+        try:
+            from benchmarks.planned_crocoddyl import Boxed
+        except ImportError as error:
+            print(f"{name}: left out, {error}; `make bench` installs it")
+        else:
+            found[name] = Boxed(shooting, asked).solve
+    return found
+
+
+def compare(objective: str, starts: Sequence[fp.State], names: Sequence[str]) -> None:
+    """Plan with an `objective` from each of `starts`, solve the same by solvers of these `names`, and print rows."""
+    asked = [request(VEHICLE, start, objective, (0, 0, 0), kept=Constraints(clearance=0)) for start in starts]
+    duration = HORIZONS[0] * asked[0].units.time
+    plans = [fp.plan(VEHICLE, start, objective, duration=duration, time_limit=PATIENT) for start in starts]
+    best = [of_plan(*pair) for pair in zip(asked, plans, strict=True)]
+    alone = plans_of(asked, one_by_one([Job(each, ORDER[0]) for each in asked], HORIZONS[0]), HORIZONS[0])
+    show(f"{objective}, plan", best, best)
+    show(f"{objective}, plan from one guess", [of_plan(*pair) for pair in zip(asked, alone, strict=True)], best)
+    for name, solve in rivals(Shooting(asked[0]), asked[0], names).items():
+        answers = []
+        for each, ours in zip(asked, best, strict=True):
+            _, states, commands = make_guesses([Job(each, ORDER[0])] * WIDTH, HORIZONS[0])
+            answers.append(answer := solve(each, states[..., 0], commands[..., 0]))
+            told = f"{name} {answer.plan.status}, {answer.plan.iterations} iterations, {answer.took:.2f} s"
+            print(f"  {told}, cost {answer.cost:.4g}, of the plan {ours.cost:.4g}", flush=True)
+        show(f"{objective}, {name}", answers, best)
 
 
 def main() -> None:
@@ -136,26 +225,15 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--runs", type=int, default=12)
     parser.add_argument("--seed", type=int, default=2211)
-    parser.add_argument("--solvers", nargs="+", choices=list(OPTIONS), default=list(OPTIONS))
-    asked = parser.parse_args()
-    starts = fp.random_starts(asked.runs, asked.seed)
-    runs = [starts[i] for i in range(asked.runs)]
-    wished = [request(VEHICLE, start, "excursion", (0, 0, 0), kept=Constraints(clearance=0)) for start in runs]
-    best = [fp.plan(VEHICLE, start, duration=HORIZONS[0] * each.units.time, time_limit=PATIENT)
-            for start, each in zip(runs, wished, strict=True)]  # fmt: skip
-    alone = plans_of(wished, one_by_one([Job(each, ORDER[0]) for each in wished], HORIZONS[0]), HORIZONS[0])
-    print("solver: solved, excursion against our plan p50, most; processor time p50, most")
-    for name, plans in (("plan, eight guesses", best), ("plan, one guess", alone)):
-        print(row(name, plans, best, [plan.solve_time for plan in plans]), flush=True)
-    shooting = Shooting(wished[0])
-    for name in asked.solvers:
-        solver, answers = shooting.solver(name), []
-        for each, ours in zip(wished, best, strict=True):
-            _, states, commands = make_guesses([Job(each, ORDER[0])] * WIDTH, HORIZONS[0])
-            answers.append(shooting.solve(solver, each, states[..., 0], commands[..., 0]))
-            told_of = f"{answers[-1].plan}, derivatives {answers[-1].derivatives:.1f} s"
-            print(f"  {name}: {told_of}; ours {ours.excursion:.3f} m", flush=True)
-        print(row(name, [a.plan for a in answers], best, [a.took for a in answers]), flush=True)
+    parser.add_argument("--objective", nargs="+", choices=["excursion", "effort"], default=["excursion", "effort"])
+    parser.add_argument("--solvers", nargs="+", choices=[*OPTIONS, OF_EFFORT], default=[*OPTIONS, OF_EFFORT])
+    given = parser.parse_args()
+    starts = fp.random_starts(given.runs, given.seed)
+    print("solver: solved, cost against the plan least, p50, most; processor time p50, most")
+    with TemporaryDirectory() as folder, chdir(folder):
+        for objective in given.objective:
+            names = [name for name in given.solvers if name != OF_EFFORT or objective == "effort"]
+            compare(objective, [starts[i] for i in range(given.runs)], names)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 STUDY = 'vehicle = "nayak2018"\nduration = 1.0\nruns = 10\nlaw = {{ name = "corrected" }}\n{more}'
 
 # Distributions whose modules have another name.
-MODULES = {"imageio-ffmpeg": "imageio_ffmpeg", "pillow": "PIL", "tomli-w": "tomli_w"}
+MODULES = {"imageio-ffmpeg": "imageio_ffmpeg", "mcap-ros2-support": "mcap_ros2", "pillow": "PIL", "tomli-w": "tomli_w"}
 
 
 def modules_of(requirements):

@@ -19,7 +19,7 @@ from flypend.compile.program import interpret, lower
 from flypend.export.records import params_of, params_record
 from flypend.export.symbolic import SymbolicVehicle
 from flypend.geometry import E3, cross, dot, rotation_from_vector
-from flypend.laws import certificate, references
+from flypend.laws import certificate, references, verify
 from flypend.laws.certified import _run, _state, chart_function, differs
 from flypend.laws.chart import SIZE, law_at
 from flypend.model import State
@@ -217,7 +217,7 @@ def test_a_file_is_checked_by_a_program_of_its_own(tmp_path, capsys):
     path, good = tmp_path / "set.json", found().certificate
     found().save(path)
     assert json.loads(path.read_text()) == good
-    command = [sys.executable, "-m", "flypend.laws.certificate", str(path)]
+    command = [sys.executable, "-m", "flypend.laws.verify", str(path)]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (run.returncode, run.stderr) == (0, "")
     assert run.stdout.startswith("proved: V <= 0.05")
@@ -225,7 +225,7 @@ def test_a_file_is_checked_by_a_program_of_its_own(tmp_path, capsys):
 
     def refused(*vehicle, **changes):
         path.write_text(json.dumps(good | changes))
-        assert certificate.main(str(path), *vehicle) == 1
+        assert verify.main(str(path), *vehicle) == 1
         return capsys.readouterr().out
 
     assert refused(c=1.0).startswith("not proved: a ")
@@ -242,10 +242,10 @@ def test_a_file_is_checked_by_a_program_of_its_own(tmp_path, capsys):
 def test_the_file_tells_which_gains_are_no_defaults():
     other = fp.laws.almost_global(rod_damping=4.3).bind(HEHN)
     made = found().certificate | {"numbers": found().certificate["numbers"] | {"rod_damping": 4.3}}
-    assert certificate.unlike(made) == ("", "almost_global, rod_damping 4.3 on hehn2011")
+    assert verify.unlike(made) == ("", "almost_global, rod_damping 4.3 on hehn2011")
     assert differs(made, other) == ""
     made["numbers"]["rod_damping"] = -4.3
-    reason, _ = certificate.unlike(made)
+    reason, _ = verify.unlike(made)
     assert reason.startswith("no law of flypend is in the file: rod_damping: expected")
 
 

@@ -1,8 +1,8 @@
-"""Check a certificate of Theorem C by validated computation: `python -m flypend.laws.certificate FILE [VEHICLE]`.
+"""Check a certificate of Theorem C by validated computation: `python -m flypend.laws.verify FILE [VEHICLE]`.
 
 The file says: for every state with V ≤ c and |ω₃| ≤ w, at any heading, the law asks each rotor for a force within its
 limits. Through a lag, V is V', |η_α3| ≤ k_yaw w, and the forces that act are within the limits, too. With a body, the
-rod of a hub touches neither rotor disc nor arm. `check` uses nothing of flypend. It evaluates the law's program on
+rod of a hub touches neither rotor disc nor arm. This module uses nothing of flypend. It evaluates the law's program on
 Taylor models of degree 3 over the unit ball, which contains {V ≤ c} in the coordinates of the chart lemma
 (docs/laws/theorem-proof.md, section 8):
 
@@ -28,13 +28,10 @@ factors is off by at most (n + k) u times the sum of their sizes, in any order (
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -517,43 +514,3 @@ def touching(certificate: Any, theta: float) -> str:
             if not (theta < math.pi / 2 and gap > GAP):
                 return f"the rod may touch {part} {i + 1}: it leans by up to {math.degrees(theta):.3g} degrees"
     return ""
-
-
-def unlike(certificate: Any, vehicle: str | None = None) -> tuple[str, str]:
-    """Return in what a certificate is not of flypend's law of that name on its `vehicle`, and what that law is.
-
-    The first is empty where none is found. The law has the gains in the file, and the second tells those that are no
-    defaults. `vehicle` is a name or a TOML file; default the name in the file.
-    """
-    from flypend import InputError, laws, model  # check needs none of it
-    from flypend.laws.certified import BODY, differs
-
-    try:
-        machine = model.vehicle(vehicle or certificate["vehicle"])
-        machine = machine.replace(mount="hub") if certificate["body"] else machine
-        gains = {key: value for key, value in certificate["numbers"].items() if key not in (*BODY, "rotor_lag")}
-        make = {"almost_global": laws.almost_global, "almost_global_lag": laws.almost_global_lag}[certificate["law"]]
-        usual = make().bind(machine).numbers
-        own = [f"{name} {value:g}" for name, value in gains.items() if value != usual.get(name)]
-        return differs(certificate, make(**gains).bind(machine)), ", ".join(
-            [make.__name__, *own]
-        ) + f" on {machine.name}"
-    except (InputError, KeyError) as reason:
-        return f"no law of flypend is in the file: {reason}", ""
-
-
-def main(path: str, vehicle: str | None = None) -> int:
-    """Check the file at `path`, and compare its program with the law that it names, on `vehicle`."""
-    certificate = json.loads(Path(path).read_text(encoding="utf-8"))
-    reason, law = check(certificate), ""
-    if not reason:
-        reason, law = unlike(certificate, vehicle)
-    if reason:
-        print(f"not proved: {reason}")
-        return 1
-    print(f"proved: V <= {certificate['c']} m^2/s^2, |omega_3| <= {certificate['w']} rad/s, {law}")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))

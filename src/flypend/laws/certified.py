@@ -131,7 +131,7 @@ class CertifiedSet:
         return ca.Function("ratios", [s], [ca.cse(ca.densify(ca.substitute(found, t, 0)))])
 
     def save(self, path: str | Path) -> None:
-        """Write the certificate to the file `path`, as JSON; `python -m flypend.laws.certificate` checks it."""
+        """Write the certificate to the file `path`, as JSON; `python -m flypend.laws.verify` checks it."""
         with whole_file(path, (".json",)) as whole:
             whole.write_text(json.dumps(self.certificate), encoding="utf-8")
 

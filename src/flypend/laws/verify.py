@@ -1,0 +1,49 @@
+"""Check a certificate, and that it is of a law of the package: `python -m flypend.laws.verify FILE [VEHICLE]`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from flypend import InputError, laws, model
+from flypend.laws.certificate import check
+from flypend.laws.certified import BODY, differs
+
+
+def unlike(certificate: Any, vehicle: str | None = None) -> tuple[str, str]:
+    """Return in what a certificate is not of flypend's law of that name on its `vehicle`, and what that law is.
+
+    The first is empty where none is found. The law has the gains in the file, and the second tells those that are no
+    defaults. `vehicle` is a name or a TOML file; default the name in the file.
+    """
+    try:
+        machine = model.vehicle(vehicle or certificate["vehicle"])
+        machine = machine.replace(mount="hub") if certificate["body"] else machine
+        gains = {key: value for key, value in certificate["numbers"].items() if key not in (*BODY, "rotor_lag")}
+        make = {"almost_global": laws.almost_global, "almost_global_lag": laws.almost_global_lag}[certificate["law"]]
+        usual = make().bind(machine).numbers
+        own = [f"{name} {value:g}" for name, value in gains.items() if value != usual.get(name)]
+        return differs(certificate, make(**gains).bind(machine)), ", ".join(
+            [make.__name__, *own]
+        ) + f" on {machine.name}"
+    except (InputError, KeyError) as reason:
+        return f"no law of flypend is in the file: {reason}", ""
+
+
+def main(path: str, vehicle: str | None = None) -> int:
+    """Check the file at `path`, and compare its program with the law that it names, on `vehicle`."""
+    certificate = json.loads(Path(path).read_text(encoding="utf-8"))
+    reason, law = check(certificate), ""
+    if not reason:
+        reason, law = unlike(certificate, vehicle)
+    if reason:
+        print(f"not proved: {reason}")
+        return 1
+    print(f"proved: V <= {certificate['c']} m^2/s^2, |omega_3| <= {certificate['w']} rad/s, {law}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

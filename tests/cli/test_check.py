@@ -60,8 +60,8 @@ def test_advice_is_printed_and_written(call, tmp_path):
     [
         ({"mass": 5.0, "bob_mass": 0.5}, "the weight is 53.96 N with mass 5 kg + bob_mass 0.5 kg (not g)"),
         ({"gravity": 0.0}, "without gravity no pose of the rod is upright"),
-        ({"rotor_lag": 0.25}, "rotor lag and delay of 250 ms are too long"),
-        ({"rotor_lag": 0.25}, "the inverted law refuses the vehicle"),
+        ({"rotor_lag": 0.5}, "rotor lag and delay of 500 ms are too long"),
+        ({"rotor_lag": 0.5}, "the inverted law refuses the vehicle"),
     ],
 )
 def test_a_vehicle_that_cannot_exits_with_1_and_the_reason(call, tmp_path, changes, words):

@@ -44,7 +44,7 @@ def test_a_check_is_plain_numbers_for_json(good):
     [
         (HEHN.replace(mass=5.0), "inverted", "the weight is 49.54 N with mass 5 kg"),
         (HEHN.replace(gravity=0.0), "inverted", "without gravity"),
-        (fp.vehicle("crazyflie").replace(rotor_lag=0.2), "inverted", "rotor lag and delay of 200 ms are too long"),
+        (fp.vehicle("crazyflie").replace(rotor_lag=0.5), "inverted", "rotor lag and delay of 500 ms are too long"),
     ],
 )
 def test_a_vehicle_that_cannot_be_flown_is_a_result_with_a_reason(vehicle, law, words):

@@ -42,9 +42,9 @@ AXIS = [KEPT.index(COORDINATES.index(f"theta_{i}")) for i in (1, 2)]
 MOST_TREMOR = 0.05 / 3
 SHARES = 8  # steps from the default gains to the calmest
 # What a machine may have of the believed masses and rod, at least: where loops are fastest, rotors with a lag resonate.
-# Of such flights, one in 100 may fail.
+# Of such flights, one in 25 may fail.
 LIGHT = {"mass": 0.8, "bob_mass": 0.8, "rod_length": 0.85}
-MOST_LIGHT_TREMOR = 0.05 / 2.75
+MOST_LIGHT_TREMOR = 0.05 / 2.5
 # Densities are of order 1e-8 in SI units; in these the Riccati equation is well conditioned.
 UNIT = 1e-6
 ROUNDOFF = 1e-12

@@ -11,6 +11,7 @@ from urllib.parse import quote
 
 import casadi as ca
 import gymnasium
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from PIL import Image, ImageColor
@@ -29,6 +30,13 @@ from flypend.studies.sweep.chunk import CAUSES
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 BLOCK = re.compile(r"^```python\n(.*?)^```$", flags=re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture(autouse=True)
+def _figures_are_closed():
+    """Examples leave their figures open, as a reader's session does; Matplotlib warns of more than twenty."""
+    yield
+    plt.close("all")
 
 
 @pytest.fixture(scope="module")

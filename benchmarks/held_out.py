@@ -1,6 +1,6 @@
 """Flights with wrong sensors and vehicles from held-out starts: `python -m benchmarks.held_out [vehicle] [runs]`.
 
-Half an hour for 400 runs. Random starts, and a quarter as many hanging ones, under the inverted law in the plant
+A minute for 400 runs. Random starts, and a quarter as many hanging ones, under the inverted law in the plant
 "rotors", 20 s each, from a seed that nothing was tuned on. Prints how many succeed, with the Wilson interval of 95 %,
 and the root mean square of the pivot's distance in the last 2 s of the random ones, over flights.
 """

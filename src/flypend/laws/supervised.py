@@ -22,6 +22,7 @@ from flypend.laws.almost_global import almost_global
 from flypend.laws.almost_global_bounds import stands
 from flypend.laws.almost_global_lag import almost_global_lag
 from flypend.laws.bound import Control
+from flypend.laws.certified import ratios
 from flypend.laws.gain import POSITIVE, Gain, document_gains, table
 from flypend.laws.inverted import inverted
 from flypend.laws.lag import LEAD, lead_wrench
@@ -125,8 +126,6 @@ def _control(
     acting: Wrench | None = None,
 ) -> Control:
     """Evaluate both laws for symbols `t` (s) and `state`; `forces` (3, 1), N, on vehicle and bob go to the first."""
-    from flypend.laws.certified import ratios  # with the checker, which is a program of its own
-
     first = k.first.evaluate(t, state, vehicle, *forces).wrench
     if acting is not None:
         first = lead_wrench(first, acting, k.lead)

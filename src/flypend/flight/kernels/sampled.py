@@ -206,7 +206,7 @@ def _without_lag(plant: Plant) -> dict[str, float]:
     return {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
 
 
-def any_machine(loop: Loop) -> bool:
+def _serves_any_machine(loop: Loop) -> bool:
     """Whether the numbers of the machine are inputs of the machine code of `loop`: where they are not those believed.
 
     Not in MuJoCo, whose model has them, nor where something touches, which depends on them.
@@ -215,8 +215,8 @@ def any_machine(loop: Loop) -> bool:
 
 
 def _compiled(loop: Loop) -> tuple[Plant, bool]:
-    """Return the `structure` of the plant of `loop`, and whether it is for `any_machine`."""
-    common = any_machine(loop)
+    """Return the `structure` of the plant of `loop`, and whether it serves any machine."""
+    common = _serves_any_machine(loop)
     return structure(as_believed(loop.sampled) if common else loop.sampled), common
 
 
@@ -225,7 +225,7 @@ def plant_numbers(loop: Loop) -> Numbers:
     plant = loop.sampled
     true = plant.true_vehicle(loop.vehicle)
     period = 1 / plant.rate
-    machine = [machine_numbers(loop.vehicle, plant)] if any_machine(loop) else []
+    machine = [machine_numbers(loop.vehicle, plant)] if _serves_any_machine(loop) else []
     timings = [[_timing(true, plant, while_ / steps), *machine] for _, while_, steps in _segments(plant)]
     noise = [] if plant.noise is None else [noise_numbers(plant.noise)]
     noise += [] if plant.sensors is None else [size_numbers(plant.sensors, period)]

@@ -223,6 +223,13 @@ def test_a_file_is_checked_by_a_program_of_its_own(tmp_path, capsys):
     assert run.stdout.startswith("proved: V <= 0.05")
     assert run.stdout.endswith(" almost_global on hehn2011\n")
 
+    for content in ("", "base = 1", b"\xff"):
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        assert verify.main(str(path)) == 2
+        assert capsys.readouterr().err.startswith(f"{path}: expected a certificate")
+    assert verify.main(str(tmp_path / "none.json")) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
     def refused(*vehicle, **changes):
         path.write_text(json.dumps(good | changes))
         assert verify.main(str(path), *vehicle) == 1

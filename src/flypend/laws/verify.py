@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from pathlib import Path
@@ -33,8 +34,15 @@ def unlike(certificate: Any, vehicle: str | None = None) -> tuple[str, str]:
 
 
 def main(path: str, vehicle: str | None = None) -> int:
-    """Check the file at `path`, and compare its program with the law that it names, on `vehicle`."""
-    certificate = json.loads(Path(path).read_text(encoding="utf-8"))
+    """Check the file at `path`, and compare its program with the law that it names, on `vehicle`.
+
+    Return 0 if it is proved, 1 if not, and 2 if there is no such file.
+    """
+    try:
+        certificate = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        print(f"{path}: expected a certificate, as CertifiedSet.save writes it, got {error}", file=sys.stderr)
+        return 2
     reason, law = check(certificate), ""
     if not reason:
         reason, law = unlike(certificate, vehicle)
@@ -46,4 +54,7 @@ def main(path: str, vehicle: str | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    parser = argparse.ArgumentParser(prog="python -m flypend.laws.verify", description="Check a certificate.")
+    parser.add_argument("path", metavar="FILE")
+    parser.add_argument("vehicle", metavar="VEHICLE", nargs="?", help="its name or TOML file; default that in FILE")
+    sys.exit(main(**vars(parser.parse_args())))

@@ -1,6 +1,7 @@
 """What a user would otherwise pick, IPOPT, Fatrop and crocoddyl, on the problem of `flypend.plan`.
 
 python -m benchmarks.planned_peers --runs 12 --seed 2211
+python -m benchmarks.planned_peers --improve --runs 60 --seed 5150   # IPOPT begins at each plan
 
 Multiple shooting over packed states, from the same guesses: stages, limits of the rotors, cost and tolerances at the
 end are those of a plan. Derivatives are exact: C that CasADi writes, compiled by `cc -O2`. crocoddyl, whose stages have
@@ -19,6 +20,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import MappingProxyType
 from typing import Any
 
 import casadi as ca
@@ -54,6 +56,16 @@ OPTIONS: Mapping[str, dict[str, Any]] = {
     },
 }  # fmt: skip
 OF_EFFORT = "crocoddyl"
+NEAR = 1e-9  # own units: IPOPT that improves a plan begins no farther from its limits, nor with a larger barrier,
+IMPROVING: Mapping[str, Any] = {
+    "ipopt.mu_init": 1e-7, "ipopt.warm_start_init_point": "yes",
+    **{f"ipopt.{warm}{kind}": NEAR for warm in ("", "warm_start_") for kind in
+       ("bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac")},
+    "ipopt.warm_start_mult_bound_push": NEAR,
+}  # fmt: skip
+ROOM = (0.02, 0.01)  # of the first ball beyond the farthest state: share of its square, and own units
+LOCAL = 0.2  # own units, by which no state may be off a plan that is improved nearby: what lies farther is another
+IMPROVED = 0.01  # share of the cost by which a plan that has converged is not to be improved
 
 
 @dataclass(frozen=True)
@@ -66,7 +78,7 @@ class Answer:
     derivatives: float
 
 
-Solve = Callable[[Request, Any, Any], Answer]  # (what is asked, states (N + 1, 24 + n), commands (N, n)), own units
+Solve = Callable[..., Answer]  # (what is asked, states (N + 1, 24 + n), commands (N, n)), own units
 
 
 def compiled(name: str, write: Callable[[str], Any]) -> str:
@@ -86,8 +98,8 @@ class Shooting:
     serves all starts of a vehicle, and all weights of excursion and effort.
     """
 
-    def __init__(self, asked: Request) -> None:
-        self.N, h = stages_of(HORIZONS[0])
+    def __init__(self, asked: Request, horizon: float = HORIZONS[0]) -> None:
+        self.horizon, (self.N, h) = horizon, stages_of(horizon)
         n, units, vehicle = asked.rotors, asked.units, asked.vehicle
         self.width = width = SIZE + n + 1
         numbers, machine = ca.SX(ca.DM(asked.numbers)), Scaled(ca.SX(ca.DM(units.numbers(vehicle))), n)
@@ -119,17 +131,26 @@ class Shooting:
             "ubx": np.append(np.tile(np.append(free, np.full(n, asked.numbers[HIGH])), self.N), free),
         }
         self.lacks = ca.Function("lacks", [z, start], [g])
+        a_stage = np.append(np.full(SIZE, True), np.full(2 * n + 1, False))
+        self.moves = np.append(np.tile(a_stage, self.N), a_stage[:width])  # whether an unknown is part of a state
 
-    def solver(self, name: str) -> Solve:
-        """Return what solves by the solver called `name`, whose functions are compiled here."""
+    def solver(
+        self, name: str, more: Mapping[str, Any] = MappingProxyType({}), room: tuple[float, float] = ROOM
+    ) -> Solve:
+        """Return what solves by the solver called `name`, whose functions are compiled here.
+
+        It has `more` options, and begins in a ball with `room`; see `joined`.
+        """
         equal = {"equality": (self.bounds["lbg"] == self.bounds["ubg"]).tolist()} if name == "fatrop" else {}
-        options = {"print_time": False, **OPTIONS[name], **equal}
-        library = compiled(name, lambda file: ca.nlpsol(name, name, self.problem, options).generate_dependencies(file))
-        return partial(self.solve, ca.nlpsol(name, name, library, options))
+        options = {"print_time": False, **OPTIONS[name], **equal, **more}
+        library = compiled(
+            f"{name}_{self.N}", lambda file: ca.nlpsol(name, name, self.problem, options).generate_dependencies(file)
+        )
+        return partial(self.solve, ca.nlpsol(name, name, library, options), room)
 
-    def joined(self, states: Any, commands: Any) -> Any:
-        """Return the unknowns of `states` (N + 1, 24 + n) and `commands` (N, n), own units, in a ball."""
-        e = 1.02 * np.max(np.sum(states[:, :3] ** 2, axis=1)) + 0.01
+    def joined(self, states: Any, commands: Any, room: tuple[float, float] = ROOM) -> Any:
+        """Return the unknowns of `states` (N + 1, 24 + n) and `commands` (N, n), own units, in a ball with `room`."""
+        e = (1 + room[0]) * np.max(np.sum(states[:, :3] ** 2, axis=1)) + room[1]
         x = np.hstack([states, np.full((self.N + 1, 1), e)])
         return np.append(np.hstack([x[:-1], commands]).ravel(), x[-1])
 
@@ -138,11 +159,17 @@ class Shooting:
         g = self.lacks(z, start).full().ravel()
         return float(np.max(np.maximum(self.bounds["lbg"] - g, g - self.bounds["ubg"])))
 
-    def solve(self, solver: Any, asked: Request, states: Any, commands: Any) -> Answer:
-        """Solve from `states` and `commands`; see `Solve`."""
-        numbers = np.append(asked.start, asked.numbers[[SHARED, EFFORT]])
+    def solve(
+        self, solver: Any, room: tuple[float, float], asked: Request, states: Any, commands: Any, near: float = np.inf
+    ) -> Answer:
+        """Solve from `states` and `commands`, no state farther than `near` from these; see `Solve` and `joined`."""
+        numbers, first = np.append(asked.start, asked.numbers[[SHARED, EFFORT]]), self.joined(states, commands, room)
+        reach = np.where(self.moves, near, np.inf)
+        bounds = self.bounds | {
+            "lbx": np.maximum(self.bounds["lbx"], first - reach), "ubx": np.minimum(self.bounds["ubx"], first + reach)
+        }  # fmt: skip
         begin = time.process_time()
-        found = solver(x0=self.joined(states, commands), p=numbers, **self.bounds)
+        found = solver(x0=first, p=numbers, **bounds)
         took, stats = time.process_time() - begin, solver.stats()
         derivatives = sum(spent for name, spent in stats.items() if name.startswith("t_proc_nlp_"))
         z = found["x"].full().ravel()
@@ -157,7 +184,7 @@ class Shooting:
         lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
         cost = cost_of(asked, states, commands)
         what = Found(states, commands, cost, lacks, "", 0, (cost,), 0.0, iterations, took)
-        return Answer(plans_of([asked], [what], HORIZONS[0])[0], cost, took, derivatives)
+        return Answer(plans_of([asked], [what], self.horizon)[0], cost, took, derivatives)
 
 
 def cost_of(asked: Request, states: Any, commands: Any) -> float:
@@ -166,10 +193,15 @@ def cost_of(asked: Request, states: Any, commands: Any) -> float:
     return float(asked.numbers[SHARED] * farthest + asked.numbers[EFFORT] * np.sum((commands - 1) ** 2) / 2)
 
 
+def ways_of(asked: Request, plan: fp.Plan) -> tuple[Any, Any]:
+    """Return states (N + 1, 24 + n) and commands (N, n) of a `plan`, own units."""
+    states = np.column_stack([plan.packed, plan.rotor_forces]) / asked.units.states(asked.rotors)
+    return states[:: (len(states) - 1) // len(plan.commands)], plan.commands / asked.units.force
+
+
 def of_plan(asked: Request, plan: fp.Plan) -> Answer:
     """Return a `plan` of ours as an answer."""
-    states = np.column_stack([plan.packed, plan.rotor_forces]) / asked.units.states(asked.rotors)
-    return Answer(plan, cost_of(asked, states, plan.commands / asked.units.force), plan.solve_time, 0.0)
+    return Answer(plan, cost_of(asked, *ways_of(asked, plan)), plan.solve_time, 0.0)
 
 
 def show(name: str, answers: Sequence[Answer], best: Sequence[Answer]) -> None:
@@ -201,9 +233,13 @@ def rivals(shooting: Shooting, asked: Request, names: Sequence[str]) -> dict[str
     return found
 
 
+def _asked(objective: str, start: fp.State) -> Request:
+    return request(VEHICLE, start, objective, (0, 0, 0), kept=Constraints(clearance=0))
+
+
 def compare(objective: str, starts: Sequence[fp.State], names: Sequence[str]) -> None:
     """Plan with an `objective` from each of `starts`, solve the same by solvers of these `names`, and print rows."""
-    asked = [request(VEHICLE, start, objective, (0, 0, 0), kept=Constraints(clearance=0)) for start in starts]
+    asked = [_asked(objective, start) for start in starts]
     duration = HORIZONS[0] * asked[0].units.time
     plans = [fp.plan(VEHICLE, start, objective, duration=duration, time_limit=PATIENT) for start in starts]
     best = [of_plan(*pair) for pair in zip(asked, plans, strict=True)]
@@ -220,6 +256,35 @@ def compare(objective: str, starts: Sequence[fp.State], names: Sequence[str]) ->
         show(f"{objective}, {name}", answers, best)
 
 
+def improve(objective: str, starts: Sequence[fp.State]) -> None:
+    """Plan with an `objective` from each of `starts`, let IPOPT improve those that converged, and print it."""
+    solvers: dict[int, Solve] = {}
+    gains, converged, elsewhere = [], 0, 0
+    for i, start in enumerate(starts):
+        asked, plan = _asked(objective, start), fp.plan(VEHICLE, start, objective, time_limit=PATIENT)
+        if plan.status != "converged":
+            print(f"  {i}: {plan.told}", flush=True)
+            continue
+        converged, N = converged + 1, len(plan.commands)
+        if N not in solvers:
+            solvers[N] = Shooting(asked, plan.duration / asked.units.time).solver("ipopt", IMPROVING, (NEAR, NEAR))
+        answer, cost = solvers[N](asked, *ways_of(asked, plan)), of_plan(asked, plan).cost
+        if not answer.plan or answer.cost < (1 - IMPROVED) * cost:
+            told = f"{answer.plan.status}, {1 - answer.cost / cost:.2%} less"
+            elsewhere += bool(answer.plan)
+            answer = solvers[N](asked, *ways_of(asked, plan), near=LOCAL)
+            print(f"  {i}: {told}, nearby {answer.plan.status}, {1 - answer.cost / cost:.2%} less", flush=True)
+        gains += [1 - answer.cost / cost] if answer.plan else []
+    low, high = (100 * bound for bound in wilson(converged, len(starts)))
+    better, some = sum(gain > IMPROVED for gain in gains), list(np.quantile(gains, [0.5, 0.95, 1]))
+    print(f"{objective}: converged {converged} of {len(starts)} ({low:.1f} % to {high:.1f} %)", end=", ")
+    told = quantiles(gains, 0.5, 0.95, 1)
+    print(f"by more than 1 % IPOPT improves {better} of {len(gains)} nearby and {elsewhere} wherever it goes; "
+          f"nearby p50, p95, most {told}", flush=True)  # fmt: skip
+    found = {"improved nearby, anywhere": [better, len(gains), elsewhere], "improved p50, p95, most": some}
+    record(objective, converged=[converged, len(starts), low, high], **found)
+
+
 def main() -> None:
     """Solve from cold by each, and print a row of each."""
     parser = argparse.ArgumentParser()
@@ -227,11 +292,16 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=2211)
     parser.add_argument("--objective", nargs="+", choices=["excursion", "effort"], default=["excursion", "effort"])
     parser.add_argument("--solvers", nargs="+", choices=[*OPTIONS, OF_EFFORT], default=[*OPTIONS, OF_EFFORT])
+    parser.add_argument("--improve", action="store_true", help="begin at each plan that has converged")
     given = parser.parse_args()
     starts = fp.random_starts(given.runs, given.seed)
-    print("solver: solved, cost against the plan least, p50, most; processor time p50, most")
+    if not given.improve:
+        print("solver: solved, cost against the plan least, p50, most; processor time p50, most")
     with TemporaryDirectory() as folder, chdir(folder):
         for objective in given.objective:
+            if given.improve:
+                improve(objective, [starts[i] for i in range(given.runs)])
+                continue
             names = [name for name in given.solvers if name != OF_EFFORT or objective == "effort"]
             compare(objective, [starts[i] for i in range(given.runs)], names)
 

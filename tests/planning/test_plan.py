@@ -11,7 +11,7 @@ from flypend.planning.constraints import broken
 from flypend.planning.dynamics import LEAST_ROOM, Units
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
-from flypend.planning.search import together
+from flypend.planning.search import STATIONARY, together
 from flypend.planning.verdict import plans_of
 from flypend.plants.equations import EquationsEngine
 
@@ -36,7 +36,7 @@ def check_end(plan):
 
 def test_a_swing_up_ends_in_hover_and_hardly_moves(swing_up):
     assert swing_up.status == "converged"
-    assert 1 <= swing_up.agreeing < swing_up.guesses == 24  # eight for each of three durations
+    assert 1 <= swing_up.agreeing < swing_up.guesses == 16  # eight for each of two durations
     check_end(swing_up)
     # The pivot moves by a sixth of the rod's length; the inverted law, tuned for this, by more than a length.
     assert swing_up.excursion < 0.1
@@ -223,7 +223,8 @@ def test_iterations_bring_a_plan_nearer_to_conditions_of_first_order(swing_up):
     asked = request(HEHN, HANGING, "excursion", (0, 0, 0))
     early, late = (plan_within(asked, 12.5, iterations, {}) for iterations in (12, 27))
     assert late.stationarity < 0.1 * early.stationarity
-    assert 0 < swing_up.stationarity < 0.01
+    assert 0 < swing_up.stationarity <= STATIONARY < early.stationarity
+    assert early.status == "feasible"  # nothing is called converged that was not solved to the end
 
 
 @pytest.mark.parametrize(("start", "knowing", "by_chance"), [(12, False, True), (2, True, False)])

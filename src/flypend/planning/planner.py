@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Unpack
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,7 +21,7 @@ from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.durations import HORIZONS, Search, in_time, ladder, shortest
 from flypend.planning.problem import Request, end_of, request
 from flypend.planning.result import Plan, PlanEnsemble
-from flypend.planning.search import NOT_KEPT, Job, agreeing, one_by_one, prepare, together
+from flypend.planning.search import NOT_KEPT, Found, Job, agreeing, one_by_one, prepare, together
 from flypend.planning.verdict import plans_of
 from flypend.signals.waiting import result_of, threads
 
@@ -200,34 +200,47 @@ def plan_ensemble(
     return PlanEnsemble(tuple(plans))
 
 
+class Best(NamedTuple):
+    """The best plan for a start so far, and what it is made of."""
+
+    failed: bool
+    cost: float
+    plan: Plan
+    found: Found
+
+
 def _plan_each(asked: Sequence[Request], horizons: Sequence[float], guesses: int) -> list[Plan]:
     """Return a plan for each request: with the first of `horizons` and the first styles that find one."""
-    best: list[tuple[bool, float, Plan] | None] = [None] * len(asked)  # whether it failed, its cost, and the plan
+    best: dict[int, Best] = {}
     spent = np.zeros(len(asked))
     costs: list[list[float]] = [[] for _ in asked]  # of the guesses with the last horizon, infinite for those that fail
     for horizon in horizons:
-        left = [i for i, each in enumerate(best) if _is_missing(each)]
+        left = [i for i in range(len(asked)) if i not in best or best[i].failed]
         for i in left:
             costs[i] = []
         for tried, style in enumerate(ORDER[: guesses + MORE]):
-            open_ = [i for i in left if tried < guesses or _is_missing(best[i])]
+            open_ = [i for i in left if tried < guesses or i not in best or best[i].failed]
             if not open_:
                 break
-            found = one_by_one([Job(asked[i], style) for i in open_], horizon)
-            plans = plans_of([asked[i] for i in open_], found, horizon)
-            for i, each, plan in zip(open_, found, plans, strict=True):
-                spent[i] += each.spent
-                costs[i].append(each.cost if plan else np.inf)
-                kept = best[i]
-                if kept is None or (not plan, each.cost) < kept[:2]:
-                    best[i] = not plan, each.cost, plan
+            for i, each in zip(open_, _solve([Job(asked[i], style) for i in open_], horizon), strict=True):
+                spent[i] += each.found.spent
+                costs[i].append(np.inf if each.failed else each.cost)
+                if i not in best or each[:2] < best[i][:2]:
+                    best[i] = each
+        flown = [i for i in left if not best[i].failed]
+        jobs, before = [Job(asked[i], best[i].found.style) for i in flown], [best[i].found for i in flown]
+        for i, each in zip(flown, _solve(jobs, horizon, before), strict=True):
+            spent[i] += each.found.spent
+            if not each.failed and (not each.found.unfinished or each.cost < best[i].cost):
+                best[i] = each
     return [
-        replace(each[2], solve_time=float(used), guesses=len(tried), agreeing=agreeing(tried))
-        for each, used, tried in zip(best, spent, costs, strict=True)
-        if each is not None
+        replace(best[i].plan, solve_time=float(spent[i]), guesses=len(costs[i]), agreeing=agreeing(costs[i]))
+        for i in range(len(asked))
     ]
 
 
-def _is_missing(kept: tuple[bool, float, Plan] | None) -> bool:
-    """Whether there is no plan yet that can be flown."""
-    return kept is None or kept[0]
+def _solve(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | None = None) -> list[Best]:
+    """Return what comes of each of `jobs`; see `one_by_one`."""
+    found = one_by_one(jobs, horizon, before) if jobs else []
+    plans = plans_of([job.asked for job in jobs], found, horizon)
+    return [Best(not plan, each.cost, plan, each) for plan, each in zip(plans, found, strict=True)]

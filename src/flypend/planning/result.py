@@ -69,8 +69,9 @@ class Plan:
     stage : float
         Duration of a stage, s.
     status : "converged", "feasible" or "failed"
-        Whether it ends in hover and keeps all limits, and if so whether its solver had converged. That is an optimum
-        among neighbours: other guesses may lead to others, of which this is the best.
+        Whether it ends in hover and keeps all limits, and if so whether its solver had converged: its `stationarity`
+        is at most 1e-4. That is an optimum among neighbours: other guesses may lead to others, of which this is the
+        best.
     reason : str
         Why it failed, or has not converged; else empty.
     solve_time : float
@@ -83,8 +84,8 @@ class Plan:
     guess : int
         The style of the guess that led here.
     guesses, agreeing : int
-        From how many guesses it is the best, and how many of them, itself included, came within 1 % of its cost. The
-        fewer agree, the likelier is a better plan from yet another guess.
+        From how many guesses it is the best, and how many of them, itself included, came within 1 % of its cost, before
+        it alone was solved to the end. The fewer agree, the likelier is a better plan from yet another guess.
     """
 
     vehicle: Vehicle

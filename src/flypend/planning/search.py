@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -18,11 +18,11 @@ from flypend.planning.constraints import TOLERANCE
 from flypend.planning.guess import arcs, lean_guess, leans, pumping, styles
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.programs import Programs, programs
-from flypend.planning.solver import Measures, Problem, Scratch, Solver, one_lane
+from flypend.planning.solver import DEFAULT, Measures, Problem, Scratch, Settings, Solver, one_lane
 from flypend.plants.lag import step_timing
 
-# After so many iterations so many go on, those of least cost. One of 160 random starts costs 5 % more for it.
-ROUNDS: Mapping[int, int] = MappingProxyType({6: 4})
+# After so many iterations so many go on, those of least cost.
+ROUNDS: Mapping[int, int] = MappingProxyType({6: 4, 12: 2})
 
 Array = NDArray[np.float64]
 Guess = tuple[Array, Array]  # states (stages + 1, 24 + n) and commands (stages, n), own units
@@ -31,8 +31,17 @@ Guess = tuple[Array, Array]  # states (stages + 1, 24 + n) and commands (stages,
 NEVER = np.full(1, np.inf)
 LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True), NEVER)  # of a guess that is given up
 MOST_ITERATIONS = 80
-# Converged: at so small a barrier, the best cost has changed by less than this share in so many iterations.
+# A search is over when at so small a barrier the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
+# What it found is solved to the end, which takes 8 to 90 iterations: from a little inside the limits, with a smaller
+# barrier, and the end as far off as its tolerances allow.
+FINAL = Settings(
+    barrier=1e-5, least_barrier=3e-7, cooling=0.5, long=0.3, missed=0.98, multipliers=True, inside=1e-4, slack=1e-3,
+    margin=(1e-3, 1e-5),
+)  # fmt: skip
+# It has converged when so many times in a row the next step would change the cost by less than this share, barrier
+# included: then IPOPT, begun there, finds less than 1 % of it to improve.
+STATIONARY, STATIONARY_FOR, MOST_FINAL = 1e-4, 2, 150
 SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
 SAME = 0.01  # share by which costs of guesses differ that lead to the same plan
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
@@ -54,18 +63,20 @@ class Race:
         See `ROUNDS`.
     kept : Request, optional
         What the lanes are to keep although their solvers do not know of it.
+    settings : Settings, optional
+        Numbers of the method.
     """
 
     def __init__(
         self, compiled: Programs, problem: Problem, states: Array, commands: Array,
-        rounds: Mapping[int, int] = ROUNDS, kept: Request | None = None,
+        rounds: Mapping[int, int] = ROUNDS, kept: Request | None = None, settings: Settings = DEFAULT,
     ) -> None:  # fmt: skip
         scratch, arrays = Scratch(compiled, problem.stages, 1), (*problem.arrays, states, commands)
         self._solvers, self._lacks = [], []
         for i in range(states.shape[-1]):
             *own, begin, steered = (one_lane(values[..., i]) for values in arrays)
             alone = Problem(problem.stages, *own)
-            self._solvers.append(Solver(compiled, alone, begin, steered, scratch=scratch))
+            self._solvers.append(Solver(compiled, alone, begin, steered, settings, scratch))
             self._lacks += [_lack(kept, alone, begin, steered)] if kept else []
         self._running = list(range(len(self._solvers)))
         self._iterations, self._rounds = 0, rounds
@@ -229,11 +240,37 @@ class Watch:
         """Return the best so far."""
         none = *solver.iterate(int(self._on[0])), NOT_REACHED, 0, UNKNOWN
         states, commands, lacks, place, stationarity = self._kept or none
-        unfinished = "" if self._steady >= STEADY_FOR else UNFINISHED
         return Found(
-            states, commands, self._best, lacks, unfinished, self._jobs[place].style, self._costs, stationarity,
+            states, commands, self._best, lacks, UNFINISHED, self._jobs[place].style, self._costs, stationarity,
             self._iterations, self._spent,
         )  # fmt: skip
+
+
+class FinalWatch(Watch):
+    """Watches a lane that solves a `job` to the end: until the conditions of first order hold."""
+
+    def __init__(self, job: Job, lane: int = 0) -> None:
+        super().__init__([job], [lane], MOST_FINAL, SOFT_LAST)
+        self._times = 0
+
+    @property
+    def done(self) -> bool:
+        """Whether more iterations are not worth their time."""
+        return self._times >= STATIONARY_FOR or self._iterations >= self._most or self._stuck
+
+    def after(self, solver: Solver | Race, verdict: Verdict, spent: float) -> None:
+        """Look at the lane after an iteration, which took `spent` (s): what counts is the last."""
+        self._kept = None
+        super().after(solver, verdict, spent)
+        lane = int(self._on[0])
+        self._best = float(verdict.cost[lane])
+        small = verdict.stationarity[lane] <= STATIONARY and verdict.barrier[lane] <= FINAL.least_barrier
+        self._times = self._times + 1 if small and np.isfinite(self._best) else 0
+
+    def found(self, solver: Solver | Race) -> Found:
+        """Return the last iterate."""
+        found = super().found(solver)
+        return replace(found, unfinished="") if self._times >= STATIONARY_FOR else found
 
 
 def agreeing(costs: ArrayLike) -> int:
@@ -279,12 +316,19 @@ def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Wat
 
     `job` says what is asked for, and the number of the guess. By default it is watched as one that keeps its distance.
     """
-    states, commands = guess
-    stages = len(commands)
-    timing, vehicle, numbers = (part[:, None] for part in _problem(job.asked, horizon / stages))
-    problem = Problem(stages, timing, vehicle, numbers, _places([job], stages, horizon / stages))
-    race = Race(_alone(job.asked), problem, states[..., None], commands[..., None], {})
+    settings = FINAL if isinstance(watch, FinalWatch) else DEFAULT
+    race = Race(_alone(job.asked), *_begun([job], horizon, [guess]), {}, settings=settings)
     return _raced(race, watch or Watch([job], [0], soft=SOFT_LAST), job.asked.structure.soft, deadline)
+
+
+def finished(job: Job, horizon: float, found: Found, deadline: float) -> Found:
+    """Solve what was `found` for a `job` to the end."""
+    return _joined(found, improved(job, horizon, (found.states, found.commands), deadline, FinalWatch(job)))
+
+
+def _joined(found: Found, final: Found) -> Found:
+    """Return the `final` of what was `found` by a search, with the iterations of both."""
+    return replace(final, costs=found.costs, iterations=found.iterations + final.iterations)
 
 
 def _alone(asked: Request) -> Programs:
@@ -302,17 +346,29 @@ def _raced(race: Race, watch: Watch, soft: bool, deadline: float) -> Found:
     return watch.found(race)
 
 
-def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
+def one_by_one(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | None = None) -> list[Found]:
     """Solve each of `jobs` on a lane of its own; a lane that is done takes the next job.
 
     Jobs have the same structure, and vehicles as many rotors. Lanes do not see each other: what is found for a job
-    does not depend on the others.
+    does not depend on the others. What was found for each `before` is solved to the end.
     """
     found: list[Found | None] = [None] * len(jobs)
-    soft = jobs[0].asked.structure.soft
-    first = [*jobs[:WIDTH], *[jobs[0]] * (WIDTH - len(jobs))]
-    solver = _solver(first, horizon)
-    watches = {lane: (lane, Watch([job], [lane])) for lane, job in enumerate(jobs[:WIDTH])}
+    asked, soft = jobs[0].asked, jobs[0].asked.structure.soft
+
+    def some_from(first: int) -> tuple[Problem, Array, Array]:
+        own = [*range(first, min(first + WIDTH, len(jobs)))]
+        own += [first] * (WIDTH - len(own))
+        if before is None:
+            return make_guesses([jobs[i] for i in own], horizon)
+        begun = [(before[i].states, before[i].commands) for i in own]
+        return _begun([jobs[i] for i in own], horizon, begun)
+
+    def watching(place: int, lane: int) -> tuple[int, Watch]:
+        return place, Watch([jobs[place]], [lane]) if before is None else FinalWatch(jobs[place], lane)
+
+    compiled = programs(asked.rotors, asked.structure, lanes=True)
+    solver = Solver(compiled, *some_from(0), settings=DEFAULT if before is None else FINAL)
+    watches = {lane: watching(lane, lane) for lane in range(min(WIDTH, len(jobs)))}
     following = WIDTH
     guesses: list[tuple[Problem, Array, Array]] = []
     while watches:
@@ -331,17 +387,12 @@ def one_by_one(jobs: Sequence[Job], horizon: float) -> list[Found]:
             if following < len(jobs):
                 ahead = (following - WIDTH) % WIDTH
                 if ahead == 0:
-                    some = jobs[following : following + WIDTH]
-                    guesses = [make_guesses([*some, *[some[0]] * (WIDTH - len(some))], horizon)]
+                    guesses = [some_from(following)]
                 solver.take(lane, *guesses[0], ahead)
-                watches[lane] = following, Watch([jobs[following]], [lane])
+                watches[lane] = watching(following, lane)
                 following += 1
-    return [each for each in found if each is not None]
-
-
-def _solver(jobs: Sequence[Job], horizon: float) -> Solver:
-    asked = jobs[0].asked
-    return Solver(programs(asked.rotors, asked.structure, lanes=True), *make_guesses(jobs, horizon))
+    ended = [each for each in found if each is not None]
+    return ended if before is None else [_joined(*pair) for pair in zip(before, ended, strict=True)]
 
 
 def guesses_of(asked: Request, horizon: float, stages: int) -> list[Guess]:
@@ -367,6 +418,19 @@ def make_guesses(jobs: Sequence[Job], horizon: float, stages: int | None = None)
     return Problem(stages, timing, vehicle, numbers, _places(jobs, stages, h)), states, commands
 
 
+def _begun(jobs: Sequence[Job], horizon: float, guesses: Sequence[Guess]) -> tuple[Problem, Array, Array]:
+    """Return the problem of `jobs`, and their states and commands: `guesses`, which have as many stages."""
+    stages = len(guesses[0][1])
+    timing, vehicle, numbers = (
+        _side_by_side(parts) for parts in zip(*(_problem(job.asked, horizon / stages) for job in jobs), strict=True)
+    )
+    states, commands = (lanes(*np.shape(part), width=len(jobs)) for part in guesses[0])
+    for lane, guess in enumerate(guesses):
+        states[..., lane], commands[..., lane] = guess
+    problem = Problem(stages, timing, vehicle, numbers, _places(jobs, stages, horizon / stages))
+    return problem, states, commands
+
+
 def _places(jobs: Sequence[Job], stages: int, h: float) -> Array | None:
     """Return where the pivots are to be (stages + 1, 3, lanes), own units, if there are paths."""
     if not jobs[0].asked.structure.path:
@@ -390,6 +454,6 @@ def _problem(asked: Request, h: float) -> tuple[Array, Array, Array]:
 
 
 def _side_by_side(columns: Sequence[Any]) -> Array:
-    array = lanes(len(columns[0]))
+    array = lanes(len(columns[0]), width=len(columns))
     array[:] = np.column_stack(columns)
     return array

@@ -22,7 +22,9 @@ from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED
 from flypend.planning.programs import Programs
 
 Lanes = NDArray[np.float64]
-MISSED = 0.5  # tolerances at the end, above which its weight grows
+# Of multipliers of the end: their step, as a share of weight and error; the error, in tolerances, beyond which the
+# weight grows first; and the offset below which it falls.
+ASCENT, FAR_OFF, PUSHED = 2.0, 1.5, 2.0
 
 
 @dataclass(frozen=True)
@@ -37,17 +39,21 @@ class Settings:
     most_damping: float = 1e6  # and largest
     state_damping: float = 0.1  # of states, as a share of that of commands
     worse: float = 8.0  # factor of the damping after a step that failed,
-    better: float = 1 / 3  # and after a long one
+    better: float = 1 / 3  # and after one of at least
+    long: float = 0.5  # this length
     shrinks: tuple[float, ...] = (0.4,) * 7  # factors of the step length, in turn, while the merit does not fall
     room: float = 0.9  # largest share of the room to a limit that one step takes
     turn: float = 2.0  # largest change of attitude or rod in one step, rad
     spread: float = 100.0  # largest ratio between a multiplier and μ/s, either way
-    end_weight: float = 0.005  # of the squared errors at the end: first,
-    most_end_weight: float = 50.0  # largest,
-    end_growth: float = 1.3  # and its factor per iteration while they are too large at a barrier
-    end_barrier: float = 1e-4  # below this
+    end_weight: float = 0.005  # of the squared errors at the end: first and least,
+    most_end_weight: float = 50.0  # and largest
+    missed: float = 0.5  # tolerances at the end, above which its weight grows at a barrier
+    end_barrier: float = 1e-4  # below this,
+    end_growth: float = 1.3  # by this factor per iteration
+    multipliers: bool = False  # whether each error has a multiplier instead, so that the weight is the first
     relief: float = 1e-4  # barrier down to which a large e costs its logarithm, so that it does not outweigh the end
     inside: float = 0.02  # share of the range of a command by which guesses keep away from its limits
+    slack: float = 0.1  # least, at first, of an inequality that need not be kept exactly
     margin: tuple[float, float] = (0.05, 0.05)  # of the ball beyond the farthest state: share of its square, and least
 
 
@@ -213,7 +219,7 @@ class Solver:
         self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
         self._shared[0, on] = 0.0
         self._fit(whole, on)
-        self._slack[..., on], self._price[:, on] = 0.1, 1.0
+        self._slack[..., on], self._price[:, on] = settings.slack, 1.0
         for measured in (self.merit, self.lack, self.gap, self.end):
             measured[on] = np.inf
         # In the other lanes slacks are what they were.
@@ -355,14 +361,30 @@ class Solver:
         """Adapt damping, barrier and weight of the end to the `length` of the step."""
         settings = self._set
         damping = self._damping[1]
-        damping = np.where(length >= 0.5, settings.better * damping, damping)
+        damping = np.where(length >= settings.long, settings.better * damping, damping)
         damping = np.where(length < 0.2, settings.worse * damping, damping)
         self.damp(np.clip(damping, settings.least_damping, settings.most_damping))
         cooled = np.maximum(settings.cooling * self._mu[0], settings.least_barrier)
         self._mu[0] = np.where(length >= 0.3, cooled, self._mu[0])
-        missed = (self.end > MISSED) & (self._mu[0] <= settings.end_barrier)
-        grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
-        self._weight[0] = np.where(missed, grown, self._weight[0])
+        if settings.multipliers:
+            self._yield()
+        else:
+            missed = (self.end > settings.missed) & (self._mu[0] <= settings.end_barrier)
+            grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
+            self._weight[0] = np.where(missed, grown, self._weight[0])
+
+    def _yield(self) -> None:
+        """Let errors at the end come as near to their tolerances as the cost wants them, by a multiplier for each.
+
+        The offset is the multiplier over the weight, which grows where errors are far too large, and falls again.
+        """
+        settings, size, pushed = self._set, np.abs(self._errors), np.abs(self._offset)
+        pushed = np.maximum(0.0, pushed + ASCENT * (size - settings.missed))
+        far, near = self.end > FAR_OFF, pushed.max(axis=0) < PUSHED
+        factor = np.where(far, settings.end_growth, np.where(near, 1 / settings.end_growth, 1.0))
+        before = self._weight[0].copy()
+        self._weight[0] = np.clip(factor * before, settings.end_weight, settings.most_end_weight)
+        self._offset[:] = np.sign(self._errors) * pushed * (before / self._weight[0])
 
     def _squared(self, states: Lanes, stages: slice) -> Lanes:
         """Return the squared distances (k, lanes) of the pivot from where it is to be, at the beginning of `stages`."""

@@ -35,8 +35,8 @@ from flypend.planning.search import (
 from flypend.planning.verdict import plans_of
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
-# Tried before, the first only for a time that is asked for: a plan of 8 is 1.5 to 3 times better than one of 12.5 from 3
-# of 80 random starts, and none of 6 better than both by 0.4 % from 60.
+# Tried before, the first only beside a time that is asked for. A plan of 8 is 1.5 to 3 times better than one of 12.5
+# from 3 of 80 random starts; one of 6 is better than both by at most 0.4 % from 60.
 SHORTER = (6.0, 8.0)
 EQUAL = 1e-3  # share by which a shorter flight must be better to be kept
 STOPPED = "stopped at the time limit"

@@ -193,6 +193,18 @@ def test_a_bound_carried_backwards_contains_what_cancels():
     bound([*root, ["mul", [1, 3], 0.0]], lambda x: x * np.sqrt(1 + x))  # passed on by the linear part alone
 
 
+def test_a_bound_that_is_not_a_number_is_not_forgotten():
+    """∞ − ∞ among the coefficients of third order; the next product has none of these."""
+    program = [
+        ["constant", [], 3e103], ["input", [0, 0], 0.0], ["mul", [0, 1], 0.0], ["mul", [2, 2], 0.0],
+        ["mul", [3, 2], 0.0], ["add", [4, 4], 0.0], ["sub", [4, 5], 0.0], ["mul", [6, 1], 0.0], ["add", [7, 1], 0.0],
+    ]  # fmt: skip
+    with np.errstate(all="ignore"):
+        [(P, error)] = certificate.evaluate(program, lambda *_: certificate.Polynomial(0.0, np.array([0.3])), [8])
+    assert (P.a, P.Q, P.T) == (0.0, None, None)
+    assert not error < np.inf
+
+
 @pytest.mark.parametrize("name", ["hehn2011", "crazyflie"])
 def test_ball_arithmetic_proves_the_same_file_for_a_smaller_set(name):
     """A second checker, of other formulas and without doubles, agrees as far as it reaches."""
@@ -322,6 +334,29 @@ def test_a_program_too_long_for_the_bounds_on_rounding_is_refused():
             certificate.evaluate(operations, None, [0])
 
 
+def test_a_program_that_is_no_number_beyond_the_set_is_not_the_law():
+    """Thrust without a turn, and h − h: proved of the set, where h = |2 ξ|⁸¹⁹² is nearly 0, and else ∞ − ∞."""
+    good, law = found().certificate, found().law
+    wrong = copy.deepcopy(good)
+    operations = wrong["operations"]
+
+    def put(name, *arguments):
+        operations.append([name, list(arguments), 0.0])
+        return len(operations) - 1
+
+    two = put("constant")
+    operations[two][2] = 2.0
+    squares = [put("mul", *[put("mul", put("input", 0, i), two)] * 2) for i in range(SIZE)]
+    h = squares[0]
+    for square in squares[1:]:
+        h = put("add", h, square)
+    for _ in range(12):
+        h = put("mul", h, h)
+    wrong["outputs"][1:4] = [put("sub", h, h)] * 3
+    assert certificate.check(wrong) == ""
+    assert differs(wrong, law) == "its program differs from the law by nan"
+
+
 def test_wrong_certificates_are_rejected():
     good, law = found().certificate, found().law
     hover = HEHN.weight / 4
@@ -337,6 +372,12 @@ def test_wrong_certificates_are_rejected():
         wrong = copy.deepcopy(good)
         wrong["numbers"][name] *= 1.01
         assert differs(wrong, law) == "its numbers is not that of the law"
+    # What the program takes for the stiffness is the reach: a law of its own, and proved.
+    wrong = copy.deepcopy(good)
+    first = wrong["parameters"].index("position_stiffness")
+    wrong["parameters"][first : first + 2] = wrong["parameters"][first : first + 2][::-1]
+    assert certificate.check(wrong) == ""
+    assert differs(wrong, law) == "its parameters is not that of the law"
     # A changed sign is told wherever it changes what the program answers.
     rng, changed, numbers = np.random.default_rng(0), 0, list(good["numbers"].values())
     point = rng.uniform(-0.4, 0.4, SIZE)

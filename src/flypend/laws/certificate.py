@@ -268,7 +268,7 @@ class _Tape:
         P, rho, factors = result
         passed, error = [], rho
         for j, C in zip(arguments, factors, strict=True):
-            if self.values[j].error > 0:
+            if self.values[j].error != 0:  # true of what is not a number, too
                 passed.append(Edge(j, *C, _length(C.l)))
                 error += (abs(C.a) + passed[-1].steep + C.radius) * self.values[j].error
         self.values.append(Value(P, rho, error * UP + TINY if arguments else 0.0, tuple(passed)))

@@ -113,8 +113,8 @@ def browsed(draw):
 
 def replay(browser):
     """The swing-up of the README, in the dive under the rod."""
-    start = fp.State(y=(0, 0, -1))
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, duration=6)
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    run = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), duration=6)
     with TemporaryDirectory() as folder:
         file = Path(folder) / "flight.html"
         run.to_html(file)

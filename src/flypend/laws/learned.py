@@ -15,7 +15,7 @@ import casadi as ca
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.geometry import Scalar, Vector, norm
+from flypend.geometry import Scalar, Vector, norm, smooth_norm
 from flypend.laws.bound import Control
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.inverted_gains import computer_of
@@ -27,6 +27,9 @@ from flypend.model import State, Vehicle, Wrench
 
 FOLDER = resources.files("flypend") / "policies"
 USUAL, SHIPPED, ON_HUB = "usual", "hehn2011", "hehn2011-hub"
+# In rod lengths: the network was trained nearer. From farther off it is shown a place at this distance, in the same
+# direction, and flies home from there.
+REACH = 4.0
 LEAST_SHARE = 0.02  # of its range: what a rotor keeps to both limits in hover, whatever the estimated forces
 
 GAINS = table(
@@ -38,7 +41,7 @@ GAINS = table(
         ),
         Gain("observer", 1.5, "1/s", "Bandwidth of the external-force observer; 0 for none", NOT_NEGATIVE),
         Gain("latency", 0.0, "s", "Delay that the flight computer compensates by prediction", NOT_NEGATIVE),
-        Gain("delay_reach", 0.0, "s", DELAY_REACH, NOT_NEGATIVE),
+        Gain("delay_reach", 0.06, "s", DELAY_REACH, NOT_NEGATIVE),
     )
 )  # fmt: skip
 
@@ -114,6 +117,8 @@ def learned_control(
     """
     x_ref = reference(t)
     x, x_dot = state.x - x_ref, state.x_dot - ca.densify(derivatives(x_ref, t, 1)[0])
+    far = REACH * vehicle.l
+    x = x * far / ca.fmax(smooth_norm(x, 1e-6 * far), far)
     phi = features(state, x, x_dot, vehicle.l, ca.sqrt(vehicle.l / vehicle.g))
     low, high = vehicle.rotor_limits
     level = (vehicle.weight - forces[0][2] - forces[1][2]) / len(vehicle.rotor_spins)

@@ -29,7 +29,7 @@ from flypend.flight import simulate
 from flypend.laws.policy import load as load_policy
 from flypend.laws.policy import save as save_policy
 from flypend.learning import training
-from flypend.learning.flights import Course
+from flypend.learning.course import Course
 from flypend.learning.training import Learner, Training
 from flypend.paper import experiment
 from flypend.studies.sweep import run

@@ -8,7 +8,7 @@ import pytest
 import flypend as fp
 from flypend.files.toml import toml_text
 from flypend.learning import training
-from flypend.learning.flights import Course
+from flypend.learning.course import Course
 from flypend.learning.training import Learner, Training
 
 

@@ -13,7 +13,8 @@ from flypend.laws.linearise import linearise
 from flypend.laws.policy import FEATURES, Policy, load, save
 from flypend.learning import flights as flying
 from flypend.learning import world
-from flypend.learning.flights import Course, Flights
+from flypend.learning.course import Course
+from flypend.learning.flights import Flights
 from flypend.learning.machines import WORSE, Flown, Machines, machine_of
 from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
 from flypend.learning.teacher import Imitation, Teacher, direct

@@ -6,7 +6,7 @@ The gradient goes back through every step of the flights (backpropagation throug
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,64 +15,18 @@ from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.identification.model import ERROR
 from flypend.laws.policy import FEATURES, HOVER
+from flypend.learning.course import Course
 from flypend.learning.machines import Flown, Machines
 from flypend.learning.network import Weights, backward, forward
 from flypend.learning.world import COSTS, OF_FLIGHT, kernels
-from flypend.model import Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Units
 from flypend.planning.dynamics import size as numbers_of
-from flypend.plants.sensors import Sensors
 
 # The excursion is the mean of squared distances to this power, its root taken: almost the largest, but smooth.
 POWER = 4
 FLOOR = 1e-4  # added to what the power is taken of
 NEAR = 0.3  # distance from hover, as in `world.costs`, of a flight that stands
-
-
-@dataclass(frozen=True)
-class Course:
-    """What the flights of a training have in common.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        The vehicle, with rotors that have a lag.
-    period, duration : float
-        Control period and length of a flight, s.
-    excursion : float
-        Weight of the excursion, in rod lengths, in the cost.
-    throughout, last : float
-        Weights of the distance from hover (see `world.costs`): its mean over the flight, and over its last third.
-    arms : float
-        Weight of the largest nearness of the rod to an arm, for a vehicle with a hub.
-    bands : bool
-        Whether machines drawn from the bands of the vehicle fly, and commands are late.
-    sensors : Sensors, optional
-        Those with whose errors states are seen; default as they are.
-    """
-
-    vehicle: Vehicle
-    period: float = 0.02
-    duration: float = 3.0
-    excursion: float = 1.0
-    throughout: float = 0.3
-    last: float = 2.0
-    arms: float = 3.0
-    bands: bool = False
-    sensors: Sensors | None = None
-
-    @property
-    def steps(self) -> int:
-        """Control periods of a flight."""
-        return round(self.duration / self.period)
-
-    @property
-    def weights(self) -> Any:
-        """Weights (steps,) of the distance from hover."""
-        weights, last = np.full(self.steps, self.throughout / self.steps), self.steps // 3
-        weights[-last:] += self.last / last
-        return weights
 
 
 class Costs(NamedTuple):

@@ -9,20 +9,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flypend.identification.model import ERROR
 from flypend.laws.learned import GAINS, LEAST_SHARE
+from flypend.learning.course import Course
 from flypend.planning.dynamics import Units
 from flypend.plants.bands import draw_world
 from flypend.plants.lag import step_timing
 from flypend.plants.plant import Sampled
 from flypend.plants.tremor import estimate_errors
-
-if TYPE_CHECKING:
-    from flypend.learning.flights import Course
 
 DRAWN = 512  # machines of a training with bands
 UNFOUND = 0.015  # s: the longest delay that the flight computer has not found, or the rotors' curve looks like

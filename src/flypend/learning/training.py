@@ -16,7 +16,8 @@ from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
 from flypend.laws.policy import MOST_WEIGHTS, Policy
-from flypend.learning.flights import Costs, Course, Flights
+from flypend.learning.course import Course
+from flypend.learning.flights import Costs, Flights
 from flypend.learning.machines import Machines
 from flypend.learning.network import Adam, Weights, first_weights
 from flypend.learning.teacher import RATE, Imitation, direct

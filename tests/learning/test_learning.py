@@ -353,14 +353,19 @@ def test_a_tenth_of_a_training_beats_the_tuned_law(tmp_path):
 
 @pytest.mark.slow
 def test_a_law_learned_within_bands_flies_them_through_motion_capture(tmp_path):
-    """A quarter of a training: other machines than it flew, seen by the true estimator, nearly as surely as the law."""
-    wide = MINE.replace(bands={**MINE.bands, "inertia": ((0.0028, 0.0028, 0.0049), (0.0042, 0.0042, 0.0073))})
-    learner = whole(replace(usual(wide, bands=True, sensors=MOCAP), updates=400))
+    """A whole training: in machines that it has not flown, seen by the true estimator, it strays less than the law.
+
+    After two thirds of such a training 100 of 100 succeed, of the tuned law 99.
+    """
+    moments = np.diag(VEHICLE.inertia)
+    near = {name: MINE.bands[name] for name in ("mass", "rod_length", "thrust_scale")}  # all machines share a kernel
+    wide = VEHICLE.replace(bands={**near, "inertia": (tuple(0.8 * moments), tuple(1.2 * moments))})
+    learner = whole(usual(wide, bands=True, sensors=MOCAP))
     save(learner.policy, tmp_path / "mine.npz")
-    worlds = list(worlds_within(wide, fp.Plant(sensors="mocap"), 7, draws=4).values())
+    worlds = list(worlds_within(wide, fp.Plant(sensors="mocap"), 7, draws=19).values())
     laws = [fp.laws.learned(policy=str(tmp_path / "mine.npz")), fp.laws.inverted()]
-    own, tuned = fp.compare(wide, laws, fp.random_starts(200, 4712), 15.0, plant=worlds).ensembles.values()
-    assert own.success.sum() >= 190
+    own, tuned = fp.compare(wide, laws, fp.random_starts(100, 4712), 10.0, plant=worlds).ensembles.values()
+    assert own.success.sum() >= 95
     assert np.median(own.excursion) < np.median(tuned.excursion)
 
 

@@ -304,7 +304,8 @@ def main() -> None:
     where = machine()
     print(
         f"{where['processor']}, {where['cores']} cores (load {where['load']:.1f}), {where['date']}; "
-        f"JAX {jax.__version__} on {jax.devices()[0].device_kind}. A GPU at {asked.gpu:g} €/h, a core at {asked.core:g} €/h.\n"
+        f"JAX {jax.__version__} on {jax.devices()[0].device_kind}. "
+        f"A GPU at {asked.gpu:g} €/h, a core at {asked.core:g} €/h.\n"
     )
     worlds(COUNTS[:1] if asked.small else COUNTS, asked.gpu, asked.core)
     print()

@@ -58,9 +58,20 @@ class DelayEstimator:
     lag_left : float
         What is left of the rotors' lag after the computer's lead, s. It is predicted over as well, under the last
         command.
+    assumed : float
+        The delay of the forces that act, s, as an estimator of the state assumes it until the flight has told enough.
     """
 
-    def __init__(self, believed: Believed, told: float, reach: float, period: float, lag_left: float) -> None:
+    def __init__(
+        self,
+        believed: Believed,
+        told: float,
+        reach: float,
+        period: float,
+        lag_left: float = 0.0,
+        assumed: float = 0.0,
+    ) -> None:
+        self._assumed = max(assumed, LEAST * period)
         self._lag_left = lag_left
         self._believed, self._period = believed, period
         self._told, self._longest = max(told, LEAST * period), told + reach
@@ -147,6 +158,23 @@ class DelayEstimator:
         last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
         first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
         return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)
+
+    def acting(self) -> ca.Function:
+        """Return (memory, rotors (n,), params) → the forces (n,) that act by then, N, after a step with that memory.
+
+        Their delay is the one found, as far as the past tells it, and else the one assumed: `told` is in the middle of
+        what a predictor survives, and of forces one knows better.
+        """
+        b, memory, rotors = (
+            self._believed,
+            ca.SX.sym("memory", self.record.length),
+            ca.SX.sym("r", self._believed.rotors),
+        )
+        parts = self.record.split(memory)
+        share = parts["information"] / (parts["information"] + DOUBT * angular_authority(b.vehicle) ** 2)
+        at, *_ = self.weights(self._assumed + share * (parts["found"] - self._assumed), parts["phase"])
+        forces = ca.densify(self._entries(parts["past"], rotors) @ at)
+        return ca.Function("acting", [memory, rotors, b.symbols], [ca.cse(forces)])
 
     def carry(self) -> ca.Function:
         """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""

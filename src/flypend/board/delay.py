@@ -133,11 +133,10 @@ class DelayEstimator:
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
-        next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
         phase, past = self._age(phase, entries)
         kept = self.record.join({
             "begun": 1, "phase": phase, "found": found, "trim": trim, "information": information, "omega": omega,
-            "earlier": next_earlier, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
+            "earlier": acting[1:], "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
         })  # fmt: skip
         horizon = delay + self._lag_left
         ramp = self._extend(delay, impulse, lever, rotors, command)

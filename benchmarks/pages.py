@@ -17,6 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image, ImageColor
 from playwright.sync_api import sync_playwright
@@ -27,7 +28,7 @@ from benchmarks.lab import OPTIONS, SHOWN
 from flypend.lab.alone import chapters_page
 from flypend.lab.controls import figures, story
 from flypend.model.table import vehicle_names
-from flypend.palette import CAUSES
+from flypend.palette import CAUSES, SERIES
 from flypend.pictures.machine import machine_figure
 from flypend.pictures.stop_motion import stop_motion
 
@@ -84,8 +85,9 @@ def compress(path, colours):
 
 
 def api():
-    """What examples draw."""
+    """What examples draw, in the colours of the package."""
     matplotlib.use("Agg")
+    matplotlib.rcParams["axes.prop_cycle"] = matplotlib.cycler(color=SERIES)
     (PICTURES / "api").mkdir(exist_ok=True)
     here = Path.cwd()
     for name, code in CELL.findall((DOCS / "reference" / "examples.py").read_text(encoding="utf-8")):
@@ -94,6 +96,7 @@ def api():
             exec(compile(code, name, "exec"), {"__name__": "__main__"})
             os.chdir(here)
             shutil.copy(Path(folder, name), PICTURES / "api" / name)
+        plt.close("all")
         compress(PICTURES / "api" / name, 64)
 
 
@@ -113,8 +116,8 @@ def browsed(draw):
 
 def replay(browser):
     """The swing-up of the README, in the dive under the rod."""
-    start = fp.State(y=(0, 0, -1))
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, duration=6)
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    run = fp.simulate(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, -1)), duration=6)
     with TemporaryDirectory() as folder:
         file = Path(folder) / "flight.html"
         run.to_html(file)

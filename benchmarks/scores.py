@@ -1,11 +1,12 @@
 """What policies score in the tasks of the environments: `python -m benchmarks.scores TASK [--policy NAME …]`.
 
 A row per policy: random actions; the linear-quadratic regulator, the inverted law and the learned one, as flight
-computers whose commands are the actions; a plan that is tracked; PPO and SAC of Stable-Baselines3, which are trained
-first (`benchmarks.learners`), until they score `--wanted` of the inverted law, once for each `--seed`; a network that
-`examples/gradient.py` trains. Only those that need no training fly by default. A score is the sum of the rewards of an
-episode; a rod is up at the end if the world is cut off with the rod within 15° of upright. All fly from the same
-starts, which no training has seen.
+computers whose commands are the actions; a plan that is tracked; PPO of Stable-Baselines3 and SAC of sbx, which are
+trained first (`benchmarks.learners`), until they score `--wanted` of the inverted law, once for each `--seed`; a
+network that `examples/gradient.py` trains. Only those that need no training fly by default. A score is the sum of the
+rewards of an episode; a rod is up at the end if the world is cut off with the rod within 15° of upright. All fly from
+the same starts, which no training has seen. The last row of several seeds is their mean, with the interval of Student's
+t over seeds.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
+from scipy import stats
 
 import flypend as fp
 from benchmarks.learners import SETTINGS, trained
@@ -136,7 +138,7 @@ def policy_of(name: str) -> Policy:
     return random_actions() if name == "random" else Planned() if name == "plan" else Law(name)
 
 
-def told(name: str, found: Scored, law: Scored, trained: str = "| | ") -> str:
+def told(name: str, found: Scored, law: Scored, trained: str = "| | | ") -> str:
     """Return the row of a table."""
     n, score = len(found.returns), found.returns.mean()
     half = 1.96 * found.returns.std(ddof=1) / np.sqrt(n)
@@ -144,6 +146,17 @@ def told(name: str, found: Scored, law: Scored, trained: str = "| | ") -> str:
     return (
         f"| {name} | {score:.0f} ({score - half:.0f} to {score + half:.0f}) | {score / law.returns[:n].mean():.0%} | "
         f"{found.up.sum()} of {n} | {low:.1%} to {high:.1%} {trained}|"
+    )
+
+
+def mean_of(name: str, seeds: list[tuple[float, ...]], runs: int, law: float) -> str:
+    """Return the row of all `seeds`: of each its score, rods up of `runs`, steps, seconds of processor and of wall."""
+    score, up, steps, processor, wall = np.mean(seeds, axis=0)
+    half = stats.t.ppf(0.975, len(seeds) - 1) * np.std([seed[0] for seed in seeds], ddof=1) / np.sqrt(len(seeds))
+    return (
+        f"| {name}, mean of {len(seeds)} seeds | {score:.0f} ({score - half:.0f} to {score + half:.0f}) | "
+        f"{score / law:.0%} | {up * len(seeds):.0f} of {runs * len(seeds):,} | | {steps:,.0f} | {processor:.0f} | "
+        f"{wall:.0f} |"
     )
 
 
@@ -155,11 +168,12 @@ def main() -> None:
     parser.add_argument("--seed", type=int, action="append", help="of training")
     parser.add_argument("--wanted", type=float, default=0.9, help="share of the law's score at which training stops")
     parser.add_argument("--minutes", type=float, default=10.0, help="most processor time of a training")
+    parser.add_argument("--threads", type=int, default=1, help="of PyTorch")
     asked = parser.parse_args()
     names = asked.policy or ["random", *LAWS, *["plan"] * (TASKS[asked.task]().name in PLANNED)]
     law = scored(asked.task, policy_of("inverted"), RUNS, SEED)
-    print("| policy | score (95 % interval) | of the law's | up at the end | 95 % interval | steps | seconds |")
-    print("|---|---|---|---|---|---|---|")
+    columns = "score (95 % interval) | of the law's | up at the end | 95 % interval | steps | processor, s | wall, s"
+    print(f"| policy | {columns} |\n|---|---|---|---|---|---|---|---|")
     for name in names:
         if name == "inverted":
             print(told(name, law, law), flush=True)
@@ -167,13 +181,17 @@ def main() -> None:
             runs = PLANS if name == "plan" else RUNS
             print(told(name, scored(asked.task, policy_of(name), runs, SEED), law), flush=True)
         else:
+            seeds: list[tuple[float, ...]] = []
             for seed in asked.seed or [0]:
-                policy, steps, seconds = trained(
+                done = trained(
                     name, asked.task, seed, lambda one: scored(asked.task, one, RUNS, CHECKED).returns.mean(),
-                    asked.wanted * law.returns.mean(), 60 * asked.minutes,
+                    asked.wanted * law.returns.mean(), 60 * asked.minutes, asked.threads,
                 )  # fmt: skip
-                found = scored(asked.task, policy, RUNS, SEED)
-                print(told(f"{name}, seed {seed}", found, law, f"| {steps:,} | {seconds:.0f} "), flush=True)
+                found, spent = scored(asked.task, done.policy, RUNS, SEED), (done.steps, done.processor, done.wall)
+                seeds.append((found.returns.mean(), found.up.sum(), *spent))
+                print(told(f"{name}, seed {seed}", found, law, "| {:,} | {:.0f} | {:.0f} ".format(*spent)), flush=True)
+            if len(seeds) > 1:
+                print(mean_of(name, seeds, RUNS, law.returns.mean()))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from typing import Any
 from docutils import nodes
 
 from flypend import __version__
+from flypend.palette import SERIES
 
 SITE = Path(__file__).with_name("site")  # what makes the pages, beside what is on them
 sys.path.insert(0, str(SITE))
@@ -97,8 +98,12 @@ def _escaped(lines: list[str]) -> None:
 
 
 def _site(app: Any) -> None:
-    """Tell the gallery where to leave the pages that it links to."""
+    """Say where the gallery leaves its pages, and in which colours tutorials plot."""
     os.environ["FLYPEND_SITE"] = str(app.outdir)
+    settings = Path(app.doctreedir) / "matplotlibrc"
+    colours = [colour.strip("#") for colour in SERIES]  # which begins a comment there
+    settings.write_text(f"axes.prop_cycle: cycler('color', {colours})\n")
+    os.environ["MATPLOTLIBRC"] = str(settings)
 
 
 def _paper(app: Any, failed: Exception | None) -> None:

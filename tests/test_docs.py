@@ -133,6 +133,16 @@ def test_tutorials_were_run_and_can_be_taken_along(site):
         assert len(list((site / "_downloads").rglob(f"{path.stem}.ipynb"))) == 1
 
 
+def test_plots_of_tutorials_have_the_colours_of_the_package(site):
+    page = site / "tutorials" / "your-law.html"
+    plots = [
+        Image.open(page.parent / name).convert("RGB") for name in re.findall(r'src="([^"]+\.png)"', page.read_text())
+    ]
+    found = {colour for plot in plots for _, colour in plot.getcolors(plot.width * plot.height)}
+    assert ImageColor.getrgb(palette.BLUE) in found
+    assert ImageColor.getrgb("#1f77b4") not in found  # the first of Matplotlib's own
+
+
 def test_the_paper_resolves_its_citations_and_cites_what_it_lists(tmp_path):
     out = tmp_path / "paper.html"
     subprocess.run([sys.executable, str(ROOT / "paper" / "build.py"), str(out)], check=True)  # a warning fails
@@ -301,7 +311,7 @@ SLOW = ("trial, Trial",)  # it flies for minutes of flight
 )
 def test_the_example_of_an_object_runs(name, code, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    if name in LEARNERS and importlib.util.find_spec("stable_baselines3") is None:
+    if name.partition(" | ")[0] in LEARNERS and importlib.util.find_spec("stable_baselines3") is None:
         with pytest.raises(fp.InputError, match=r"^flypend\.envs\.sb3: expected Stable-Baselines3 \(pip install"):
             exec(compile(code, name, "exec"), {"__name__": "__main__"})
         return

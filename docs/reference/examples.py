@@ -44,10 +44,24 @@ vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
 flight = fp.Flight(vehicle=vehicle, law=fp.laws.inverted(), starts=start, duration=2.0)
 print(flight.law.gains["rod_bandwidth"])  # the law is bound to the vehicle
 
-# %% Tolerances
+# %% Tolerances | api/tolerances.png: A tighter tolerance leaves a smaller error, down to rounding
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
-print(fp.Tolerances(rtol=1e-6, method="dp5"))
+print(fp.Tolerances(rtol=1e-6, method="dp5"))  # of a Flight
+
+flown = {"vehicle": fp.vehicle("hehn2011"), "law": fp.laws.almost_global()}
+flown |= {"start": fp.State(y=(0.6, 0, 0.8)), "duration": 2, "plant": "ideal"}
+exact = fp.simulate(**flown, rtol=1e-13).y[-1]
+rtol = 10.0 ** np.arange(-12, -2)
+errors = [np.linalg.norm(fp.simulate(**flown, rtol=one).y[-1] - exact) for one in rtol]
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.loglog(rtol, errors, "o-")
+axes.set(xlabel="rtol", ylabel="error of the rod after 2 s")
+figure.savefig("tolerances.png")
 
 # %% Trajectory | replay.png: The page that to_html writes: the flight, and plots of rod, thrust and distance
 import flypend as fp
@@ -208,19 +222,24 @@ axes.set(xlabel="t (s)", ylabel="distance of the pivot (m)")
 axes.legend()
 figure.savefig("air.png")
 
-# %% uniform_rod
+# %% uniform_rod, rod_with_bob | api/rod.png: The more of the mass is in the bob, the longer the equivalent pendulum
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
-print(fp.uniform_rod(mass=0.05, length=1.13))
-print(
-    fp.vehicle("hehn2011").replace(**fp.uniform_rod(0.05, 1.13)).l
-)  # equivalent point bob
+vehicle, length = fp.vehicle("hehn2011"), 0.6  # m
+print(vehicle.replace(**fp.uniform_rod(0.05, length)).l)  # of a point bob: 2/3 of the rod
+rod = fp.rod_with_bob(mass=0.02, length=length, bob_mass=0.04)  # kg, m, kg
+print(vehicle.replace(**rod).l)
 
-# %% rod_with_bob
-import flypend as fp
-
-rod = fp.rod_with_bob(mass=0.02, length=0.6, bob_mass=0.04)  # kg, m, kg
-print(fp.vehicle("hehn2011").replace(**rod).l)
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+shares = np.linspace(0, 0.95, 40)
+rods = [fp.rod_with_bob(0.05 * (1 - share), length, 0.05 * share) for share in shares]
+axes.plot(shares, [vehicle.replace(**each).l for each in rods])
+axes.axhline(length, color="grey", linestyle="--")
+axes.set(xlabel="bob's share of the mass", ylabel="equivalent length l (m)")
+figure.savefig("rod.png")
 
 # %% laws.inverted | law-cascade.svg: The cascade of the law: bob, force, thrust axis, moment, rotors
 import flypend as fp
@@ -305,7 +324,9 @@ vehicle, start = fp.vehicle("nayak2018"), fp.State(y=(0.8, 0, 0.6), y_dot=(0, 1,
 run = fp.simulate(vehicle, fp.laws.printed(), start, duration=6.5, plant="ideal")
 print(run.outcome)
 
-# %% laws.from_function
+# %% laws.from_function | api/function.png: The vehicle climbs to its place and stays there, with the rod hanging
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 
@@ -314,8 +335,15 @@ def hover(t, state, vehicle, *, k_p=2.0, k_d=1.5):
     return fp.Wrench(thrust, vehicle.I @ (-20.0 * state.omega))
 
 
-law = fp.laws.from_function(hover)
-print(fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, -1)), 2).outcome)
+law, below = fp.laws.from_function(hover), fp.State(x=(0, 0, -1), y=(0, 0, -1))
+run = fp.simulate(fp.vehicle("hehn2011"), law, below, duration=8)
+print(run.outcome)
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, run.x[:, 2])
+axes.axhline(0, color="grey", linestyle="--")
+axes.set(xlabel="t (s)", ylabel="height of the pivot (m)")
+figure.savefig("function.png")
 
 # %% laws.law_from_dict
 import flypend as fp
@@ -333,7 +361,7 @@ import flypend as fp
 control = fp.laws.Control(wrench=fp.Wrench(5.4, (0, 0, 0)), signals={"mode": 1.0})
 print(control.wrench.thrust, control.signals)
 
-# %% laws.Guard
+# %% laws.Guard | cause-singular.svg: Where a guarded quantity vanishes, the law is undefined and the flight ends
 import flypend as fp
 
 guard = fp.laws.Guard(signal="domain", threshold=1e-12, reason="outside the domain")
@@ -364,7 +392,7 @@ try:
 except (fp.laws.LawError, fp.InputError) as error:
     print(error)
 
-# %% Law
+# %% Law | law-cascade.svg: The cascade of the law: bob, force, thrust axis, moment, rotors
 import flypend as fp
 
 law = fp.laws.inverted()
@@ -403,13 +431,21 @@ axes.plot(hover.eigenvalues.real, hover.eigenvalues.imag, "x")
 axes.set(xlabel="real part (1/s)", ylabel="imaginary part (rad/s)")
 figure.savefig("eigenvalues.png")
 
-# %% references.hover
+# %% references.hover | api/hover.png: The pivot goes to another place; it first moves away, to lean the rod
+import matplotlib.pyplot as plt
+
 import flypend as fp
 from flypend.laws.references import hover
 
 law = fp.laws.inverted(hover((1.0, 0.0, 0.5)))
 run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), duration=8)
 print(run.x[-1].round(2))
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(run.t, run.x[:, [0, 2]], label=["x₁", "x₃"])
+axes.set(xlabel="t (s)", ylabel="position of the pivot (m)")
+axes.legend()
+figure.savefig("hover.png")
 
 # %% references.line | api/line.png: The pivot catches up with a reference that moves away, and stays with it
 import matplotlib.pyplot as plt
@@ -716,12 +752,27 @@ axes.axvline(1, color="grey", linestyle="--")
 axes.set(xlabel="found / true", yticks=range(3), yticklabels=names)
 figure.savefig("identified.png")
 
-# %% sensitivity, Sensitivity
+# %% sensitivity, Sensitivity | api/sensitivity.png: The derivative predicts the end of flights with other gains: the tangent of the curve
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
 vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0.6, 0.8))
-found = fp.sensitivity(vehicle, fp.laws.inverted(), start, 2.0, gains=("rod_bandwidth",))
+law, name = fp.laws.inverted, "rod_bandwidth"
+found = fp.sensitivity(vehicle, law(), start, 2.0, gains=(name,))
 print(found.by_start.shape, found.by_gains.shape, found.on_manifold[0].shape)
+
+end, gain = found.final, found.gains[name]
+slope = found.by_gains[end.packed() == end.x[1], 0]  # of x₂
+others = gain * np.linspace(0.8, 1.2, 15)
+runs = [fp.simulate(vehicle, law(**{name: k}), start, 2.0, plant="ideal") for k in others]
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(others, [run.x[-1, 1] for run in runs], "o", label="flown")
+axes.plot(others, end.x[1] + slope * (others - gain), label="predicted")
+axes.set(xlabel="rod bandwidth (1/s)", ylabel="x₂ after 2 s (m)")
+axes.legend()
+figure.savefig("sensitivity.png")
 
 # %% InputError
 import flypend as fp
@@ -731,17 +782,17 @@ try:
 except fp.InputError as error:
     print(error)
 
-# %% export_app
+# %% export_app | compiler-pipeline.svg: From equations to C: the app is the last stage, with what the firmware calls
 import flypend as fp
 
 fp.export_app("crazyflie", fp.laws.inverted(), fp.vehicle("crazyflie"), "app")
 
-# %% export_c
+# %% export_c | compiler-pipeline.svg: From equations to C
 import flypend as fp
 
 fp.export_c(fp.laws.inverted(), fp.vehicle("hehn2011"), "computer", precision="float")
 
-# %% export.compiled
+# %% export.compiled | compiler-pipeline.svg: From equations to C
 import flypend as fp
 from flypend.export import compiled
 
@@ -810,7 +861,7 @@ seen, _ = worlds.reset(seed=1)
 seen, rewards, _, _, _ = worlds.step(worlds.action_space.sample())
 print(seen.shape, rewards.mean())
 
-# %% envs.DifferentiableWorlds
+# %% envs.DifferentiableWorlds | env-balance.svg: The rod is kept up and brought home
 import numpy as np
 
 import flypend.envs
@@ -844,7 +895,7 @@ import flypend.envs
 longer = dataclasses.replace(flypend.envs.swing_up(), duration=20.0)
 print(flypend.envs.environment(longer).task.duration)
 
-# %% envs.Moment
+# %% envs.Moment | env-balance.svg: The rod is kept up and brought home
 import dataclasses
 
 import flypend.envs
@@ -879,13 +930,13 @@ import flypend.envs
 
 print(flypend.envs.catch_in_cup().name, flypend.envs.catch_in_cup().duration)
 
-# %% sb3.make_vec_env
+# %% sb3.make_vec_env | env-balance.svg: The rod is kept up and brought home
 from flypend.envs.sb3 import make_vec_env
 
 worlds = make_vec_env("flypend/Balance-v0", n_envs=64, seed=0)
 print(worlds.reset().shape)
 
-# %% sb3.VecWorlds
+# %% sb3.VecWorlds | env-track.svg: The rod stands while the vehicle follows a circle
 from flypend.envs import VectorWorlds
 from flypend.envs.sb3 import VecWorlds
 

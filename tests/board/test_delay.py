@@ -136,19 +136,36 @@ def test_what_is_predicted_is_where_the_vehicle_is_when_its_command_acts():
     assert wrong < 5e-3 < 0.1 < nothing
 
 
+def test_forces_that_act_are_late_by_the_delay_found_once_it_is():
+    """An estimator moves by them; where nothing is told, they are as late as it assumes."""
+    estimator = DelayEstimator(Believed.numbers(VEHICLE), TOLD, REACH, 0.002, assumed=0.02)
+    find, acting, memory = as_numpy(estimator.find()), as_numpy(estimator.acting()), estimator.begin(HOVER)
+    delay, times, tells = 0.045, 0.002 * np.arange(1, 1251), estimator.record.place("information")
+    off = {"found": [], "at once": [], "assumed": []}
+    for t, omega in zip(times, turned(lambda t: busy(np.maximum(t - delay, 0)), 0.002), strict=True):
+        memory, *_ = find(memory, omega, *[busy(np.array([t - 0.002]))[0]] * 2, NONE)
+        untold = np.array(memory)
+        untold[tells] = 0.0
+        for name, late, known in (("found", delay, memory), ("at once", 0.0, memory), ("assumed", 0.02, untold)):
+            act = acting(known, busy(np.array([t]))[0], NONE)
+            off[name].append(np.abs(act - busy(np.maximum([t - late], 0))[0]).max())
+    # N; forces change by 3.6 N/s, and are remembered every 8 ms.
+    assert max(off["found"][500:]) < 0.02 < 0.1 < max(off["at once"][500:])
+    assert max(off["assumed"][500:]) < 0.02
+
+
 @settings(deadline=None)  # a busy machine must not decide
 @given(st.floats(0.002, 0.08), st.integers(1, 4), st.integers(0, 100))
-def test_mean_and_ramp_are_those_of_the_wrench_between_what_is_remembered(delay, phase, seed):
+def test_mean_and_end_are_those_of_the_wrench_between_what_is_remembered(delay, phase, seed):
     """What is remembered is linear in between, so the integrals by the trapezoidal rule are exact at its knots."""
     estimator, rng = made(), np.random.default_rng(seed)
     ages = np.append(0.0, 0.002 * phase + 0.008 * np.arange(estimator.depth))
     values = rng.standard_normal(len(ages))
-    at, over, moment = (np.array(w).ravel() for w in as_numpy(_weights(estimator))(delay, float(phase)))
+    at, over = (np.array(w).ravel() for w in as_numpy(_weights(estimator))(delay, float(phase)))
     fine = np.unique(np.append(np.linspace(0, delay, 20001), ages[ages < delay]))
     signal = np.interp(fine, ages, values)
     assert at @ values == pytest.approx(np.interp(delay, ages, values), abs=1e-12)
     assert over @ values == pytest.approx(np.trapezoid(signal, fine), abs=1e-12)
-    assert moment @ values == pytest.approx(np.trapezoid(signal * fine, fine), abs=1e-9)  # a parabola between knots
 
 
 def _weights(estimator):
@@ -170,6 +187,13 @@ def test_an_untold_delay_of_twice_what_is_expected_is_no_loss(sensors):
     ]
     assert stand[0] >= 36
     assert stand[1] <= 4
+
+
+def test_a_delay_that_nobody_told_is_not_felt_as_a_force():
+    """With an accelerometer, of 80 ms. An estimator that goes on to assume none loses nine flights of ten."""
+    plant = ROTORS.replace(delay=0.08, sensors=SUITES["mocap"].replace(command_delay=0.0))
+    starts = fp.random_starts(40, 78)
+    assert fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), starts, 10.0, plant=plant).success.sum() >= 28
 
 
 def test_a_reference_is_followed_at_the_time_when_commands_act():

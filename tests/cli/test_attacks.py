@@ -29,7 +29,7 @@ from flypend.flight import simulate
 from flypend.laws.policy import load as load_policy
 from flypend.laws.policy import save as save_policy
 from flypend.learning import training
-from flypend.learning.flights import Course
+from flypend.learning.course import Course
 from flypend.learning.training import Learner, Training
 from flypend.paper import experiment
 from flypend.studies.sweep import run
@@ -210,9 +210,9 @@ def save_checkpoint(path):
     learner.save(path)
 
 
-def little(vehicle, seed=0, updates=None):
+def little(vehicle, seed=0, updates=None, bands=False, sensors=None):
     """A training of seconds."""
-    course = Course(vehicle, duration=0.3)
+    course = Course(vehicle, duration=0.3, bands=bands, sensors=sensors)
     return Training(course, seed=seed, rounds=1, steps=1, updates=updates or 1, batch=16, hidden=(8, 8))
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.files.toml import toml_text
 from flypend.learning import training
-from flypend.learning.flights import Course
+from flypend.learning.course import Course
 from flypend.learning.training import Learner, Training
 
 
@@ -15,8 +16,8 @@ from flypend.learning.training import Learner, Training
 def little(monkeypatch):
     """A training of seconds, in place of one of minutes, with a checkpoint every 25 updates."""
 
-    def usual(vehicle, seed=0, updates=None):
-        course = Course(vehicle, duration=0.6)
+    def usual(vehicle, seed=0, updates=None, bands=False, sensors=None):
+        course = Course(vehicle, duration=0.6, bands=bands, sensors=sensors)
         return Training(course, seed=seed, rounds=2, steps=5, updates=updates or 100, batch=16, hidden=(8, 8))
 
     monkeypatch.setattr(training, "usual", usual)
@@ -57,10 +58,25 @@ def test_it_learns_is_interrupted_and_goes_on(call, tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("little")
+def test_a_law_within_bands_and_the_best_law_is_named(call, tmp_path):
+    """A policy of seconds fails where the tuned law does not: the tuned law is named, with the true sensors flown."""
+    near = {"mass": (0.49, 0.51)}  # an input of the kernels, which all machines share
+    (tmp_path / "mine.toml").write_text(toml_text(fp.vehicle("hehn2011").replace(bands=near).to_dict()), "utf-8")
+    given = ("--vehicle", "mine.toml", "--updates", 1, "--runs", 18)
+    code, said, _ = call("learn", *given, "--bands", "--sensors", "mocap")
+    assert code == 0
+    assert "The best law here is inverted." in said
+    course = json.loads((tmp_path / "learn-out" / "curve.json").read_text())["training"]["course"]
+    assert course["bands"]
+    assert course["sensors"]["position"]["latency"] == 0.01
+
+
+@pytest.mark.usefixtures("little")
 def test_what_is_not_possible_is_told_in_a_line(call, tmp_path):
     for arguments, words in (
         (("--mount", "bogus"), "mount: expected one of gimbal, hub, cup, got 'bogus'"),
         (("--mount", "cup"), "mount: expected gimbal or hub"),
+        (("--sensors", "bogus"), "--sensors: expected one of"),
         (("--vehicle", "none.toml"), "none.toml: expected a readable TOML file"),
     ):
         code, said, complaints = call("learn", *arguments)

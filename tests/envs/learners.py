@@ -142,13 +142,13 @@ def test_torch_shares_the_memory_of_the_worlds():
     assert np.array_equal(shared.numpy(), worlds.unwrapped.worlds.observations)
 
 
-@pytest.mark.parametrize(("name", "steps"), [("ppo", 16_384), ("sac", 8_448)])
+@pytest.mark.parametrize(("name", "steps"), [("ppo", 32_768), ("sac", 8_448)])
 def test_the_shipped_settings_train(name, steps, monkeypatch):
     """One look at the score; whether they learn is measured, by `python -m benchmarks.scores`."""
     monkeypatch.setitem(learners.EVERY, name, steps)
-    policy, trained_for, _ = learners.trained(name, "swing_up", 0, lambda one: 1.0, wanted=0.5, seconds=1)
-    assert trained_for == steps
-    assert scores.scored("swing_up", policy, 4, 0).returns.shape == (4,)
+    found = learners.trained(name, "swing_up", 0, lambda one: 1.0, wanted=0.5, seconds=1)
+    assert found.steps == steps
+    assert scores.scored("swing_up", found.policy, 4, 0).returns.shape == (4,)
 
 
 # Others -------------------------------------------------------------------------------------------------------------

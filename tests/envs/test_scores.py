@@ -27,3 +27,10 @@ def test_laws_and_plans_are_paid_for_what_they_do(task, name, least):
     found = scores.scored(task, scores.policy_of(name), 4, scores.SEED)
     assert found.up.all()
     assert found.returns.min() > least
+
+
+def test_the_mean_of_seeds_has_students_interval():
+    """Of 400, 410 and 420 it is 410 ± 4.303 · 10/√3, not the 1.96 of many seeds."""
+    seeds = [(400.0, 190, 1000, 60.0, 61.0), (410.0, 200, 2000, 70.0, 71.0), (420.0, 198, 3000, 80.0, 81.0)]
+    told = scores.mean_of("ppo", seeds, 200, 500.0)
+    assert told == "| ppo, mean of 3 seeds | 410 (385 to 435) | 82% | 588 of 600 | | 2,000 | 70 | 71 |"

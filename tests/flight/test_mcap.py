@@ -9,13 +9,14 @@ import flypend as fp
 from flypend.geometry import rotation_from_quat_xyzw
 
 mcap_reader = pytest.importorskip("mcap.reader")
+jsonschema = pytest.importorskip("jsonschema")
 
 
 def _read(path):
     """Messages by topic with their times, ns; schemas by topic; and the metadata."""
     messages, schemas = {}, {}
     with path.open("rb") as stream:
-        reader = mcap_reader.make_reader(stream)
+        reader = mcap_reader.make_reader(stream, validate_crcs=True)
         for schema, channel, message in reader.iter_messages(log_time_order=False):
             assert (channel.message_encoding, schema.encoding) == ("json", "jsonschema")
             messages.setdefault(channel.topic, []).append((message.log_time, json.loads(message.data)))
@@ -35,7 +36,7 @@ def test_a_run_is_read_back(law, tmp_path):
     times, rows = zip(*messages["/run"], strict=True)
     assert np.allclose(np.array(times) * 1e-9, run.t, rtol=0, atol=0.5e-9)  # whole nanoseconds
     for name, array in {"x": run.x, "R": run.R, "y_dot": run.y_dot, "rotor_forces": run.rotor_forces}.items():
-        assert np.array_equal([row[name] for row in rows], array)
+        assert np.array_equal([row[name] for row in rows], np.reshape(array, (len(run.t), -1)))
     assert rows[0].keys() == schemas["/run"][1]["properties"].keys()
     assert set(run.signals) < rows[0].keys()
     assert schemas["/run"][1]["properties"]["x_dot"]["description"] == "m/s"
@@ -52,6 +53,35 @@ def test_a_run_is_read_back(law, tmp_path):
     assert (schemas["/tf"][0], schemas["/machine"][0]) == ("foxglove.FrameTransform", "foxglove.SceneUpdate")
     ((_, scene),) = messages["/machine"]
     assert {entity["frame_id"]: len(entity["cylinders"]) for entity in scene["entities"]} == {"vehicle": 4, "rod": 1}
+
+
+def _shows(schema):
+    """Whether Foxglove's reader of JSON schemas takes this one: types of all fields, and no array of arrays."""
+    if schema["type"] == "object":
+        return all(map(_shows, schema["properties"].values()))
+    if schema["type"] == "array":
+        return schema["items"]["type"] != "array" and _shows(schema["items"])
+    return schema["type"] in ("string", "boolean", "number", "integer")
+
+
+def _closed(schema):
+    """The same schema, in which each field must be there, and no other."""
+    fields = {name: _closed(field) for name, field in schema.get("properties", {}).items()}
+    items = {"items": _closed(schema["items"])} if "items" in schema else {}
+    # Of what is drawn, the vehicle has no ball.
+    return {**schema, **items, "properties": fields, "required": sorted(fields.keys() - {"spheres"}),
+            "additionalProperties": False}  # fmt: skip
+
+
+def test_messages_are_as_their_schemas_say(tmp_path):
+    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), duration=0.05)
+    run.to_mcap(tmp_path / "run.mcap")
+    messages, schemas, _ = _read(tmp_path / "run.mcap")
+    assert schemas.keys() == {"/run", "/tf", "/machine"}
+    for topic, (_, schema) in schemas.items():
+        assert _shows(schema)
+        for _, message in messages[topic]:
+            jsonschema.validate(message, _closed(schema))
 
 
 def test_what_is_undefined_is_null(tmp_path):

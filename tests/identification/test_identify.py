@@ -8,6 +8,7 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.identification.manoeuvre import rehearse, write_log
+from tests.identification.test_rosbag import TOPICS, flight, write_bag
 
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)
 SCALE = 0.93
@@ -41,6 +42,22 @@ def inside(found, field, value):
 
 def test_the_numbers_that_flew_are_found(found):
     """Within the goals of a minute's log, from a third of it; the guess is outside each of them."""
+    meets_goals(found)
+
+
+def test_so_are_they_from_a_bag(log, tmp_path):
+    """Topics have stamps and rates of their own there: cameras see every second row."""
+    rows = [line.split(",") for line in log.read_text().splitlines()]
+    sent = [
+        one
+        for i, one in enumerate(flight(rows, "std_msgs/msg/Float64MultiArray"))
+        if one[1] not in ("/pose", "/rod") or i // TOPICS % 2
+    ]
+    write_bag(tmp_path / "flight.mcap", sent)
+    meets_goals(fp.identify(tmp_path / "flight.mcap", GUESS))
+
+
+def meets_goals(found):
     v = found.vehicle
     for got, guess, true, share in (
         (v.rod_length, GUESS.rod_length, TRUE.rod_length, 0.02),
@@ -94,6 +111,16 @@ def test_the_report_says_what_was_found_and_how_well(found):
     for name in ("rod_length", "inertia[2]", "drag_ratio / I_3", "delay", "gyro", "passes of the filter"):
         assert name in said
     assert "NOT converged" not in said or found._fit.passes == 12
+
+
+@pytest.mark.parametrize("rod", [0.1, 0.6])
+def test_the_rod_of_a_light_machine_keeps_hanging(rod):
+    """Doublets of 0.6 of its reserve would turn it by 4 rad, and swing the rod over the horizontal."""
+    light = fp.vehicle("crazyflie").replace(rod_length=rod)
+    flown = rehearse(light, light, fp.Plant(), duration=8.0)
+    states = fp.State.trusted(flown.states)
+    assert np.arccos(states.R[:, 2, 2].min()) < 0.8
+    assert np.arccos(-states.y[:, 2].max()) < 1.0
 
 
 def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):

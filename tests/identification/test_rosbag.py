@@ -24,6 +24,7 @@ DEFINITIONS = {
     "std_msgs/msg/Float64MultiArray": "float64[] data\n",
     "std_msgs/msg/String": "string data\n",
 }
+TOPICS = 5  # of a flight, with a message each in every row
 ONCE = 1_700_000_000  # s since 1970, where a bag begins
 
 

@@ -82,6 +82,12 @@ def test_on_a_hub_another_policy_flies_which_keeps_clear():
     assert begun.success[free].mean() > tuned.success[free].mean() + 0.1
 
 
+def test_it_flies_home_from_far_outside_its_box():
+    """As the network was trained within some metres, and flew off for ever from here."""
+    run = fp.simulate(VEHICLE, LAW, fp.State(x=(-6, -5, -70), x_dot=(-1, 1, -12), y=(0, 0, -1)), duration=40)
+    assert fp.metrics(run).success
+
+
 def test_single_flights_and_kernels_agree():
     start = fp.random_starts(1, 5)[0]
     run = fp.simulate(VEHICLE, LAW, start, 4.0)

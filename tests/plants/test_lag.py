@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 
-from flypend.plants.lag import hold, hold_in_turn, step_timing
+from flypend.plants.lag import hold, hold_in_turn, join_ramps, step_timing
 
 DURATIONS = {
     "one": [0.02],
@@ -58,3 +58,14 @@ def test_a_ramp_starts_and_ends_about_its_mean():
     # Over a thousandth of the lag the force rises along its tangent, 1e-3, up to second order.
     assert ramp.start == pytest.approx(0.0, abs=1e-6)
     assert ramp.end == pytest.approx(1e-3, abs=1e-6)
+
+
+def test_joined_ramps_are_those_of_commands_in_turn():
+    rotors, one, other = np.array([1.0, 2.0]), np.array([3.0, 0.5]), np.array([0.0, 4.0])
+    first, middle = hold(rotors, one, step_timing(0.03, 4e-3))
+    second, end = hold(middle, other, step_timing(0.03, 11e-3))
+    expected, last = hold_in_turn(rotors, [one, other], [4e-3, 11e-3], 0.03)
+    joined = join_ramps(first, second, 4e-3, 11e-3)
+    assert np.allclose(joined.mean, expected.mean, rtol=1e-12)
+    assert np.allclose(joined.change, expected.change, rtol=1e-9)  # differences of the means, times 12 lags over a step
+    assert np.allclose(end, last, rtol=1e-12)

@@ -13,6 +13,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
 from flypend.board.program import (
     Parts,
+    carrying,
     filters,
     initial_memory,
     known_to_computer,
@@ -98,29 +99,19 @@ class SteppedBoard:
         kept, forces, state, rotors, horizon = stages.predict(self._memory, measurement, NONE, *told)
         self.predicted = (state, rotors, forces)
         command = self._steer(t + horizon.item(), state, rotors, forces)
+        after = stages.remember(self._memory, kept, measurement, forces, command, NONE)
         if stages.estimating is not None:
-            self._expecting = stages.estimating.advance(self.filtered, outside, command, self._memory)
-        self._memory = stages.remember(self._memory, kept, measurement, forces, command, NONE)
+            self._expecting = stages.estimating.carry(self.filtered, outside, command, self._memory, after, NONE)
+        self._memory = after
         return command
 
 
 class _Estimating(NamedTuple):
-    """The estimator's stages.
-
-    `first` is the place of the commands in the board's memory, and `given` the length of those that `carry` takes;
-    `forces` says whether external forces are estimated, for `predict`.
-    """
+    """The estimator's stages; `forces` says whether external forces are estimated, for `predict`."""
 
     correct: Callable[..., Any]
     carry: Callable[..., Any]
-    first: int
-    given: int
     forces: bool
-
-    def advance(self, filtered: Numbers, outside: Numbers, command: Numbers, memory: Numbers) -> Numbers:
-        """Return the estimator's memory a period after `filtered`, under `command` and those under way in `memory`."""
-        commands = np.append(command, memory[self.first :])[: self.given]
-        return self.carry(filtered, outside, commands, NONE)
 
 
 class _Stages(NamedTuple):
@@ -137,9 +128,8 @@ def _stages(loop: Loop) -> _Stages:
     made, estimating = parts(loop), None
     steer = _call(loop, loop.law) if isinstance(loop.law, Controller) else _compile(loop, made.believed)
     if made.estimator is not None:
-        carry, first = made.estimator.carry(), made.memory.place("commands").start
-        correct = as_numpy(made.estimator.correct())
-        estimating = _Estimating(correct, as_numpy(carry), first, carry.numel_in(2), filters(loop.sampled))
+        correct, carry = as_numpy(made.estimator.correct()), as_numpy(carrying(made))
+        estimating = _Estimating(correct, carry, filters(loop.sampled))
     predict, remember, trim = (as_numpy(program(made)) for program in (predicting, remembering, trimming))
     return _Stages(made, predict, steer, remember, trim, estimating)
 

@@ -58,9 +58,20 @@ class DelayEstimator:
     lag_left : float
         What is left of the rotors' lag after the computer's lead, s. It is predicted over as well, under the last
         command.
+    assumed : float
+        The delay of the forces that act, s, as an estimator of the state assumes it until the flight has told enough.
     """
 
-    def __init__(self, believed: Believed, told: float, reach: float, period: float, lag_left: float) -> None:
+    def __init__(
+        self,
+        believed: Believed,
+        told: float,
+        reach: float,
+        period: float,
+        lag_left: float = 0.0,
+        assumed: float = 0.0,
+    ) -> None:
+        self._assumed = max(assumed, LEAST * period)
         self._lag_left = lag_left
         self._believed, self._period = believed, period
         self._told, self._longest = max(told, LEAST * period), told + reach
@@ -106,12 +117,13 @@ class DelayEstimator:
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
         begun, phase, delay, trim, known, before, earlier, smooth, smoother, past = self.record.split(memory).values()
         entries = self._entries(past, rotors)
-        acting, impulse, lever = (self._wrench(entries @ weights) for weights in self.weights(delay, phase))
+        at, over = self.weights(delay, phase)
+        acting, impulse, now = (self._wrench(forces) for forces in (entries @ at, entries @ over, rotors))
         # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
         expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
         wrong = (omega - before) / h - expected
         slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
-        apart = [self._wrench(forces)[1:] - acting[1:] for forces in (entries[:, 0], entries[:, -1])]
+        apart = [(wrench - acting)[1:] for wrench in (now, self._wrench(entries[:, -1]))]
         spread = sum(ca.sumsqr(ca.mtimes(b.vehicle.I_inv, moment)) for moment in apart)
         trim = trimming.follow(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], spread, begun, h, b.vehicle)
         share = -np.expm1(-BAND / self._longest * h)
@@ -122,31 +134,47 @@ class DelayEstimator:
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
-        next_earlier = self._wrench(entries @ self.weights(found, phase)[0])[1:]
         phase, past = self._age(phase, entries)
         kept = self.record.join({
             "begun": 1, "phase": phase, "found": found, "trim": trim, "information": information, "omega": omega,
-            "earlier": next_earlier, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
+            "earlier": acting[1:], "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
         })  # fmt: skip
         horizon = delay + self._lag_left
-        ramp = self._extend(delay, impulse, lever, rotors, command)
+        ramp = self._extend(Ramp(impulse / delay, now - acting), delay, rotors, command)
         wrenches = ca.horzcat(ramp.mean, ramp.change, acting)
         outputs = [ca.densify(v) for v in (kept, horizon, wrenches)]
         return ca.Function("find_delay", [memory, omega, rotors, command, b.symbols], ca.cse(outputs))
 
-    def _extend(self, delay: Scalar, impulse: Numbers, lever: Numbers, rotors: Numbers, command: Numbers) -> Ramp:
-        """Return the wrench over delay and lag left.
+    def _extend(self, past: Ramp, delay: Scalar, rotors: Numbers, command: Numbers) -> Ramp:
+        """Return the ramp of the wrench over delay and lag left: the `past` one over the `delay` (s) goes on.
 
-        `impulse` and `lever` are the integrals of the wrench over the last `delay` (s) and of its age times it; after
-        that, the rotors follow the last `command`.
+        After that, the rotors follow the last `command`.
         """
         e = self._lag_left
         if e == 0:
-            return Ramp(impulse / delay, 12 / delay**2 * (delay / 2 * impulse - lever))
+            return past
         forces, _ = hold(rotors, command, step_timing(self._believed.lag, e))
         last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
-        first = (delay - e) / 2 * impulse - lever + delay / 2 * e * last.mean + e**2 / 12 * last.change
-        return Ramp((impulse + e * last.mean) / whole, 12 / whole**2 * first)
+        # First moments about the middle: that of each part about its own, and that of its mean.
+        first = delay**2 / 12 * past.change + e**2 / 12 * last.change + delay * e / 2 * (last.mean - past.mean)
+        return Ramp((delay * past.mean + e * last.mean) / whole, 12 / whole**2 * first)
+
+    def acting(self) -> ca.Function:
+        """Return (memory, rotors (n,), params) → the forces (n,) that act by then, N, after a step with that memory.
+
+        Their delay is the one found, as far as the past tells it, and else the one assumed: `told` is in the middle of
+        what a predictor survives, and of forces one knows better.
+        """
+        b, memory, rotors = (
+            self._believed,
+            ca.SX.sym("memory", self.record.length),
+            ca.SX.sym("r", self._believed.rotors),
+        )
+        parts = self.record.split(memory)
+        share = parts["information"] / (parts["information"] + DOUBT * angular_authority(b.vehicle) ** 2)
+        at, _ = self.weights(self._assumed + share * (parts["found"] - self._assumed), parts["phase"])
+        forces = ca.densify(self._entries(parts["past"], rotors) @ at)
+        return ca.Function("acting", [memory, rotors, b.symbols], [ca.cse(forces)])
 
     def carry(self) -> ca.Function:
         """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""
@@ -176,22 +204,19 @@ class DelayEstimator:
     def _wrench(self, rotors: Numbers) -> Numbers:
         return ca.mtimes(self._believed.vehicle.mixing(), rotors)
 
-    def weights(self, age: Scalar, phase: Scalar) -> tuple[Numbers, Numbers, Numbers]:
+    def weights(self, age: Scalar, phase: Scalar) -> tuple[Numbers, Numbers]:
         """Return the weights (k,) of the forces now and remembered, which are linear in between.
 
-        Those of the force an `age` (s) ago, of its integral since (s), and of the integral of age times it (s²).
-        `phase` is the number of periods since the newest one that is remembered.
+        Those of the force an `age` (s) ago, and of its integral since (s). `phase` is the number of periods since the
+        newest one that is remembered.
         """
-        at, over, moment = ([ca.SX(0)] * (self.depth + 1) for _ in range(3))
+        at, over = ([ca.SX(0)] * (self.depth + 1) for _ in range(2))
         at[0] = ca.SX(1)
         newest, end = phase / self._stride, age / self._spacing  # in units of the spacing, as is what follows
         for i in range(self.depth):
             begin, length = (i - 1, 1) if i else (-newest, newest)  # of this interval, ages since the newest
             share = ca.fmin(ca.fmax((end - newest - begin) / length, 0), 1)  # of it that is younger than `age`
-            half, third = share**2 / 2, share**3 / 3
+            half = share**2 / 2
             at[i], at[i + 1] = at[i] - share, share
-            for j, area, arm in ((i, share - half, half - third), (i + 1, half, third)):
-                over[j] = over[j] + length * area
-                moment[j] = moment[j] + length * (begin * area + length * arm)
-        integral, since_newest = ca.vertcat(*over), ca.vertcat(*moment)
-        return ca.vertcat(*at), self._spacing * integral, self._spacing**2 * (since_newest + newest * integral)
+            over[i], over[i + 1] = over[i] + length * (share - half), length * half
+        return ca.vertcat(*at), self._spacing * ca.vertcat(*over)

@@ -24,6 +24,8 @@ from flypend.compile.record import Field, Record
 from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, dot, norm, tangent_part
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
+from flypend.plants.cascade import cascade_step
+from flypend.plants.lag import hold, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import Segment, within_period
@@ -45,13 +47,16 @@ LATE, LATE_WALK = 0.002, 1e-4
 
 
 class Filter:
-    """The estimator of `loop`, whose plant has sensors, as `believed`."""
+    """The estimator of `loop`, whose plant has sensors, as `believed`.
 
-    def __init__(self, loop: Loop, believed: Believed) -> None:
+    `finds` says whether the board finds the delay of its loop, and with it the forces that act.
+    """
+
+    def __init__(self, loop: Loop, believed: Believed, *, finds: bool = False) -> None:
         self.sensors: Sensors = loop.sampled.sensors
         self.period = 1 / loop.sampled.rate
         self.history = History.of(self.sensors, self.period)
-        self._loop, self._believed = loop, believed
+        self._loop, self._believed, self._finds = loop, believed, finds
         self.record = self._record()
 
     @property
@@ -198,20 +203,40 @@ class Filter:
     # Propagation --------------------------------------------------------------------------------------------------
 
     def carry(self) -> ca.Function:
-        """Return (memory, outside, commands by age, params) → memory a control period later."""
+        """Return (memory, outside, given, params) → memory a control period later.
+
+        What is given are the commands by age, or, where the board finds its delay, the forces (n,) of the rotors that
+        act at the end of the period, N.
+        """
         segments = segments_of(self._loop.sampled)
-        count = 1 + max(segment.age for segment in segments)
         width = 4 if self._loop.sampled.interface == "rates" else self._believed.rotors
+        size = self._believed.rotors if self._finds else width * (1 + max(segment.age for segment in segments))
         memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", 6)
-        commands = ca.MX.sym("commands", width * count)
+        given = ca.MX.sym("given", size)
         params = ca.MX.sym("params", self._believed.symbols.numel())
-        twin = Twin(self._loop, self._believed, params, forces=True, name="carried")
         state, rotors = (memory[self.record.place(name)] for name in ("state", "rotors"))
-        given = ca.vertsplit(commands, width)
-        state, rotors = twin.advance(state, rotors, given, segments, outside)
+        if self._finds:
+            state, rotors = self._moved()(state, rotors, given, outside, params), given
+        else:
+            twin = Twin(self._loop, self._believed, params, forces=True, name="carried")
+            state, rotors = twin.advance(state, rotors, ca.vertsplit(given, width), segments, outside)
         rest = self._spread()(memory, outside, state, params)
         after = ca.vertcat(state, rotors, rest)
-        return ca.Function("carry", [memory, outside, commands, params], [after])
+        return ca.Function("carry", [memory, outside, given, params], [after])
+
+    def _moved(self) -> ca.Function:
+        """Return (state, rotors (n,) at the beginning and at the end, outside, params) → state a period later.
+
+        In between the forces change as under a held command.
+        """
+        believed, h = self._believed, self.period
+        state, outside = ca.SX.sym("s", SIZE), ca.SX.sym("F", 6)
+        begin, end = (ca.SX.sym(name, believed.rotors) for name in "be")
+        timing = step_timing(believed.lag, h)
+        command = end - timing[1] / (1 - timing[1]) * (begin - end)
+        ramp, _ = hold(begin, command, timing)
+        moved = cascade_step(state, ramp.mixed(believed.vehicle.mixing()), outside, h, believed.vehicle)
+        return ca.Function("moved", [state, begin, end, outside, believed.symbols], [ca.cse(ca.densify(moved))])
 
     def _spread(self) -> ca.Function:
         """Return (memory, outside, state after, params) → the memory after state and rotors, a period later."""

@@ -145,7 +145,7 @@ def estimator(loop: Loop, believed: Believed) -> Filter | Differences | None:
     sensors = loop.sampled.sensors
     if sensors is None:
         return None
-    return Filter(loop, believed) if filters(loop.sampled) else Differences(loop, believed)
+    return Filter(loop, believed, finds=finds_delay(loop)) if filters(loop.sampled) else Differences(loop, believed)
 
 
 def finds_delay(loop: Loop) -> bool:
@@ -159,7 +159,8 @@ def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
         return None
     computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
     left = 0.0 if computer.models_lag else believed.lag / lead
-    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left)
+    delay = loop.sampled.believed_delay
+    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left, delay)
 
 
 def filters(plant: Plant) -> bool:
@@ -169,7 +170,7 @@ def filters(plant: Plant) -> bool:
 
 def _under_way(loop: Loop) -> int:
     """Return the number of commands to remember: all that are applied from now until the next one takes effect."""
-    assumed = () if loop.sampled.sensors is None else segments_of(loop.sampled)
+    assumed = () if loop.sampled.sensors is None or finds_delay(loop) else segments_of(loop.sampled)
     return max(1, *(segment.age for segment in (*_predictor(loop), *_within(loop), *assumed)))
 
 
@@ -217,9 +218,7 @@ def board(
     given = ca.densify(command(measured[0], horizon, state, rotors, forces, path, gains, params))
     after = remember(memory, kept, measured, forces, given, params)
     if made.estimator is not None:
-        commands = ca.vertcat(given, memory[made.memory.place("commands")])
-        carry = made.estimator.carry()
-        after = ca.vertcat(after, carry(corrected, outside, commands[: carry.size1_in(2)], params))
+        after = ca.vertcat(after, carrying(made)(corrected, outside, given, memory, after, params))
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
     sent = ca.densify(trimming(made)(after[: made.own.length], given, params))
     return ca.Function("board", [whole, measurement, path, gains, params], [after, sent], *names)
@@ -296,6 +295,26 @@ def trimming(made: Parts) -> ca.Function:
         lever = memory[made.own.place("delay.trim.lever")]
         sent = trim(made.believed, limits=made.loop.sampled.limits)(command, lever, params)
     return ca.Function("trimmed", [memory, command, params], [sent])
+
+
+def carrying(made: Parts) -> ca.Function:
+    """Return (corrected, outside (6,), command, memory before and after, params) → estimate a period later.
+
+    Both memories are those without the estimate.
+    """
+    estimator, params = made.estimator, made.symbols[2]
+    assert estimator is not None
+    corrected, outside = ca.MX.sym("corrected", estimator.record.length), ca.MX.sym("outside", 6)
+    command = ca.MX.sym("command", command_width(made.loop))
+    before, after = (ca.MX.sym(name, made.own.length) for name in ("before", "after"))
+    carry = estimator.carry()
+    if made.finding is not None and filters(made.loop.sampled):
+        kept = made.own.split(after)
+        given = made.finding.acting()(after[made.own.place("delay")], kept["rotors"], params)
+    else:
+        given = ca.vertcat(command, before[made.own.place("commands")])[: carry.size1_in(2)]
+    carried = carry(corrected, outside, given, params)
+    return ca.Function("carried", [corrected, outside, command, before, after, params], [carried])
 
 
 def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:

@@ -16,7 +16,8 @@ from flypend.geometry import quat_xyzw_from_rotation
 from flypend.model.mjcf import drawn_thickness
 
 FRAMES, XYZ, XYZW = ("parent_frame_id", "child_frame_id"), ("x", "y", "z"), ("x", "y", "z", "w")
-# By its name Foxglove knows what is in a message; the schemas themselves are for people.
+# By its name Foxglove knows what a message means, by the schema what it holds: it refuses a field without a type, and
+# arrays of arrays.
 TRANSFORM, SCENE, SAMPLE = "foxglove.FrameTransform", "foxglove.SceneUpdate", "flypend.Sample"
 
 
@@ -25,20 +26,27 @@ def write_mcap(path: str | Path, run: Any, variables: Mapping[str, Variable], at
     errors.require("mcap", extra="logs", for_="run.to_mcap")
     from mcap.writer import Writer
 
-    units = {name: {"description": entry.attributes["units"]} for name, entry in variables.items()}
-    fields: dict[str, Mapping[str, Any]] = {
-        TRANSFORM: {name: {} for name in ("timestamp", *FRAMES, "translation", "rotation")},
-        SCENE: {"deletions": {}, "entities": {}},
-        SAMPLE: units,
-    }
-    topics = {"/tf": TRANSFORM, "/machine": SCENE, "/run": SAMPLE}
     stamps = np.rint(np.asarray(run.t) * 1e9).astype(np.int64).tolist()
+    turns = {"vehicle": quat_xyzw_from_rotation(run.R), "rod": _rod_turns(run.y)}
+
+    def transform(i: int, frame: str) -> dict[str, Any]:
+        place = {"translation": _named(XYZ, run.x[i]), "rotation": _named(XYZW, turns[frame][i])}
+        return {"timestamp": _time(stamps[i])} | dict(zip(FRAMES, ("world", frame), strict=True)) | place
+
+    def sample(i: int) -> dict[str, Any]:
+        return {name: _plain(entry.values[i]) for name, entry in variables.items()}
+
+    scene = {"deletions": [], "entities": _entities(run, _time(stamps[0]))}
+    schemas = {"/tf": _schema(transform(0, "rod")), "/machine": _schema(scene), "/run": _schema(sample(0))}
+    for name, entry in variables.items():
+        schemas["/run"]["properties"][name]["description"] = entry.attributes["units"]
+    topics = {"/tf": TRANSFORM, "/machine": SCENE, "/run": SAMPLE}
     with whole_file(path, (".mcap",)) as partial, partial.open("wb") as stream:
         writer = Writer(stream)
         writer.start(library="flypend")
         channels = {}
         for topic, name in topics.items():
-            schema = json.dumps({"title": name, "type": "object", "properties": fields[name]}).encode()
+            schema = json.dumps({"title": name} | schemas[topic]).encode()
             number = writer.register_schema(name, "jsonschema", schema)
             channels[topic] = writer.register_channel(topic, "json", number)
 
@@ -46,14 +54,11 @@ def write_mcap(path: str | Path, run: Any, variables: Mapping[str, Variable], at
             writer.add_message(channels[topic], stamp, json.dumps(message, allow_nan=False).encode(), stamp)
 
         writer.add_metadata("run", {name: str(value) for name, value in attributes.items()})
-        add("/machine", stamps[0], {"deletions": [], "entities": _entities(run, _time(stamps[0]))})
-        turns = {"vehicle": quat_xyzw_from_rotation(run.R), "rod": _rod_turns(run.y)}
+        add("/machine", stamps[0], scene)
         for i, stamp in enumerate(stamps):
-            for frame, quaternions in turns.items():
-                place = {"translation": _named(XYZ, run.x[i]), "rotation": _named(XYZW, quaternions[i])}
-                frames = dict(zip(FRAMES, ("world", frame), strict=True))
-                add("/tf", stamp, {"timestamp": _time(stamp)} | frames | place)
-            add("/run", stamp, {name: _plain(entry.values[i]) for name, entry in variables.items()})
+            for frame in turns:
+                add("/tf", stamp, transform(i, frame))
+            add("/run", stamp, sample(i))
         writer.finish()
 
 
@@ -92,7 +97,19 @@ def _named(names: tuple[str, ...], values: Any) -> dict[str, float]:
 
 
 def _plain(value: Any) -> Any:
-    """Return numbers as JSON has them: None for what is undefined."""
+    """Return numbers as JSON has them: None for what is undefined, a matrix as one list, row by row."""
     if np.ndim(value):
-        return [_plain(part) for part in value]
+        return [_plain(part) for part in np.ravel(value)]
     return float(value) if np.isfinite(value) else None
+
+
+def _schema(message: Any) -> dict[str, Any]:
+    """Return the JSON schema of a `message`; of a list, that of all its items."""
+    if isinstance(message, Mapping):
+        return {"type": "object", "properties": {name: _schema(value) for name, value in message.items()}}
+    if isinstance(message, list):
+        items = [_schema(item) for item in message] or [_schema({})]
+        properties = {name: kind for item in items for name, kind in item.get("properties", {}).items()}
+        return {"type": "array", "items": items[0] | ({"properties": properties} if "properties" in items[0] else {})}
+    kinds = ((str, "string"), (bool, "boolean"), (int, "integer"))
+    return {"type": next((name for kind, name in kinds if isinstance(message, kind)), "number")}

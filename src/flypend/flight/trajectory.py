@@ -216,8 +216,8 @@ class Trajectory:
 
         Messages are JSON, one per sample at its time: on "/tf" the frames "vehicle" and "rod" in "world"
         (foxglove.FrameTransform; z of the rod's frame is along the rod), on "/run" the arrays of `to_xarray` (undefined
-        numbers are null). "/machine" draws rotors, rod and bob once (foxglove.SceneUpdate). The metadata "run" holds
-        vehicle, law and outcome.
+        numbers are null, R is a list of 9, row by row). "/machine" draws rotors, rod and bob once
+        (foxglove.SceneUpdate). The metadata "run" holds vehicle, law and outcome.
 
         Parameters
         ----------

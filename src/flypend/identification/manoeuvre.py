@@ -25,6 +25,9 @@ from flypend.plants.schedule import within_period
 RATE = 250.0  # Hz, of commands and rows
 STEP_TIME, STEP = 2.5, 0.4  # s between steps of the place that is held, and their size, m
 DOUBLET_TIME, DOUBLET = 0.12, 0.6  # s of each half, and its moment over the largest that leaves hover's thrust
+# Largest tilt of a doublet, and swing that it may give the rod, rad. Otherwise it turns a light machine over, and a rod
+# that swings through the horizontal is lost to a filter that begins with a wrong length.
+TILT, SWING = 0.6, 0.25
 # Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped.
 PLACE, ATTITUDE = 1.6, 12.0
 ACCELEROMETER = 0.1  # m/s², standard deviation of its noise
@@ -139,8 +142,16 @@ def _feedback(t: float, apart: Any, speed: Any, R: Any, omega: Any, vehicle: Veh
     moment = vehicle.I @ (-(ATTITUDE**2) * error - 1.6 * ATTITUDE * omega)
     low, high = vehicle.rotor_limits
     room = min(vehicle.weight / len(vehicle.rotor_spins) - low, high - vehicle.weight / len(vehicle.rotor_spins))
-    moment = moment + doublet(t) * room * np.abs(vehicle.mixing()[1:]).sum(axis=1)
+    added = doublet(t) * room * np.abs(vehicle.mixing()[1:]).sum(axis=1)
+    most = _largest_tilt(vehicle) / DOUBLET_TIME**2 * np.diag(vehicle.I)[:2]
+    moment = moment + np.append(np.clip(added[:2], -most, most), added[2])
     return np.clip(vehicle.unmixing() @ np.array([force @ R[:, 2], *moment]), low, high)
+
+
+def _largest_tilt(vehicle: Vehicle) -> float:
+    """Return the tilt of a doublet, rad, at most: its two halves of T change the speed of the pivot by g T times it."""
+    swing = SWING * np.sqrt(vehicle.gravity * vehicle.l)
+    return float(min(TILT, swing / (vehicle.gravity * DOUBLET_TIME)))
 
 
 def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> tuple[Vehicle, Rehearsal]:

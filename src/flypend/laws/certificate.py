@@ -234,13 +234,15 @@ def _errors(values: list[Value], targets: Sequence[int], n: int) -> Any:
                 error = values[j].error
                 lost += (radius + ROUND * (abs(a) + steep)) * error
                 bent += steep * error
-                moved = a * here
+                there = waiting.get(j)
+                if there is None:
+                    there = waiting[j] = a * here
+                elif abs(a) == 1:  # half of all: sums
+                    (np.add if a > 0 else np.subtract)(there, here, out=there)
+                elif a:
+                    there += a * here
                 if l is not None:
-                    moved[1:] += l[:, None] * here[0]
-                if j in waiting:
-                    waiting[j] += moved
-                else:
-                    waiting[j] = moved
+                    there[1:] += l[:, None] * here[0]
             met.append(here)
             added.append((lost, lost + bent))
         if met and (len(met) == MET or not i):
@@ -266,7 +268,7 @@ class _Tape:
         P, rho, factors = result
         passed, error = [], rho
         for j, C in zip(arguments, factors, strict=True):
-            if self.values[j].error > 0:
+            if self.values[j].error != 0:  # true of what is not a number, too
                 passed.append(Edge(j, *C, _length(C.l)))
                 error += (abs(C.a) + passed[-1].steep + C.radius) * self.values[j].error
         self.values.append(Value(P, rho, error * UP + TINY if arguments else 0.0, tuple(passed)))

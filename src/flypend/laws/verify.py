@@ -29,7 +29,7 @@ def unlike(certificate: Any, vehicle: str | None = None) -> tuple[str, str]:
         return differs(certificate, make(**gains).bind(machine)), ", ".join(
             [make.__name__, *own]
         ) + f" on {machine.name}"
-    except (InputError, KeyError) as reason:
+    except (InputError, LookupError, TypeError, ValueError) as reason:
         return f"no law of flypend is in the file: {reason}", ""
 
 

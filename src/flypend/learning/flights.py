@@ -6,72 +6,27 @@ The gradient goes back through every step of the flights (backpropagation throug
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
+from flypend.identification.model import ERROR
 from flypend.laws.policy import FEATURES, HOVER
+from flypend.learning.course import Course
+from flypend.learning.machines import Flown, Machines
 from flypend.learning.network import Weights, backward, forward
-from flypend.learning.world import COSTS, kernels
-from flypend.model import Vehicle
+from flypend.learning.world import COSTS, OF_FLIGHT, kernels
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Units
-from flypend.plants.lag import step_timing
+from flypend.planning.dynamics import size as numbers_of
 
 # The excursion is the mean of squared distances to this power, its root taken: almost the largest, but smooth.
 POWER = 4
 FLOOR = 1e-4  # added to what the power is taken of
 NEAR = 0.3  # distance from hover, as in `world.costs`, of a flight that stands
-
-
-@dataclass(frozen=True)
-class Course:
-    """What the flights of a training have in common.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        The vehicle, with rotors that have a lag.
-    period, duration : float
-        Control period and length of a flight, s.
-    excursion : float
-        Weight of the excursion, in rod lengths, in the cost.
-    throughout, last : float
-        Weights of the distance from hover (see `world.costs`): its mean over the flight, and over its last third.
-    arms : float
-        Weight of the largest nearness of the rod to an arm, for a vehicle with a hub.
-    """
-
-    vehicle: Vehicle
-    period: float = 0.02
-    duration: float = 3.0
-    excursion: float = 1.0
-    throughout: float = 0.3
-    last: float = 2.0
-    arms: float = 3.0
-
-    @property
-    def steps(self) -> int:
-        """Control periods of a flight."""
-        return round(self.duration / self.period)
-
-    @property
-    def weights(self) -> Any:
-        """Weights (steps,) of the distance from hover."""
-        weights, last = np.full(self.steps, self.throughout / self.steps), self.steps // 3
-        weights[-last:] += self.last / last
-        return weights
-
-    @property
-    def shared(self) -> Any:
-        """Timing of a period, lead with which a rotor reaches its force within it, and limits, own units (7,)."""
-        units = Units.of(self.vehicle)
-        lag, h = self.vehicle.rotor_lag / units.time, self.period / units.time
-        lead = 1 / -np.expm1(-h / lag) if lag > 0 else 1.0
-        return np.concatenate([step_timing(lag, h), [lead], np.array(self.vehicle.rotor_limits) / units.force])
 
 
 class Costs(NamedTuple):
@@ -91,14 +46,26 @@ class Flights:
         self.rotors, self.length = len(vehicle.rotor_spins), units.length
         self.kernels, self.weights = kernels(self.rotors), course.weights[:, None, None]
         self.states, self.asked = (
-            lanes(steps + 1, self.groups, SIZE + self.rotors),
+            lanes(steps + 1, self.groups, SIZE + 3 * self.rotors),
             lanes(steps, self.groups, self.rotors),
         )
         self.costs, self._seen = lanes(steps, self.groups, COSTS), lanes(self.groups, FEATURES)
         self.phi = np.zeros((steps + 1, FEATURES, count + 1), dtype=np.float32)
         self.phi[:, :, -1] = HOVER
-        self._numbers, self._shared = _same(units.numbers(vehicle)), _same(course.shared)
+        self._numbers = lanes(self.groups, numbers_of(self.rotors))
+        self._of_flight = lanes(self.groups, OF_FLIGHT + 2 * self.rotors)
+        self._shares, self._errors = lanes(steps, self.groups, 1), lanes(steps + 1, self.groups, ERROR)
         self._kept: list[Any] = [None] * steps
+        as_written = Machines.of(replace(course, bands=False, sensors=None), 0)
+        self.enter(as_written.choose(np.random.default_rng(), count), as_written)
+
+    def enter(self, flown: Flown, machines: Machines, errors: Any = None) -> None:
+        """Let the machines `flown`, of `machines`, fly from now on, seen with `errors` (steps + 1, 18, count)."""
+        self._numbers[:], self._of_flight[:] = self.laned(flown.numbers.T), self.laned(flown.of_flight.T)
+        for t, share in enumerate(machines.shares(flown.hover)):
+            self._shares[t] = self.laned(share[None])
+        for t in range(len(self._errors)):
+            self._errors[t] = 0.0 if errors is None else self.laned(errors[t])
 
     def fly(self, weights: Weights, starts: Any) -> None:
         """Fly from `starts` (count, 24 + n), own units, under the network with these `weights`."""
@@ -111,15 +78,16 @@ class Flights:
 
     def fly_by(self, ask: Callable[[int], None], starts: Any) -> None:
         """Fly from `starts`; `ask(t)` fills `asked[t]` from `states[t]` or `phi[t]`."""
-        self.states[0] = self.laned(starts.T)
-        self.kernels.see(self.groups, self.states[0], self._seen)
+        rotors = starts[:, SIZE:]
+        self.states[0] = self.laned(np.hstack([starts, rotors, rotors]).T)
+        self.kernels.see(self.groups, self.states[0], self._of_flight, self._errors[0], self._seen)
         self.phi[0, :, :-1] = flat(self._seen)
         for t in range(self.course.steps):
             signals.poll()
             ask(t)
             self.kernels.forward(
-                self.groups, self.states[t], self.asked[t], self._numbers, self._shared, self.states[t + 1], self._seen,
-                self.costs[t],
+                self.groups, self.states[t], self.asked[t], self._numbers, self._of_flight, self._shares[t],
+                self._errors[t + 1], self.states[t + 1], self._seen, self.costs[t],
             )  # fmt: skip
             self.phi[t + 1, :, :-1] = flat(self._seen)
 
@@ -144,13 +112,13 @@ class Flights:
     def gradient(self, weights: Weights, to_costs: Any) -> Weights:
         """Return the gradient with respect to the `weights` flown, from that with respect to the costs."""
         total = {name: np.zeros_like(array) for name, array in weights.items()}
-        to_state, before = (lanes(self.groups, SIZE + self.rotors) for _ in range(2))
+        to_state, before = (lanes(self.groups, SIZE + 3 * self.rotors) for _ in range(2))
         to_phi, to_v = lanes(self.groups, FEATURES), lanes(self.groups, self.rotors)
         for t in reversed(range(self.course.steps)):
             signals.poll()
             self.kernels.backward(
-                self.groups, self.states[t], self.asked[t], self._numbers, self._shared, to_state, to_phi, to_costs[t],
-                before, to_v,
+                self.groups, self.states[t], self.asked[t], self._numbers, self._of_flight, self._shares[t],
+                self._errors[t + 1], to_state, to_phi, to_costs[t], before, to_v,
             )  # fmt: skip
             to_state, before = before, to_state
             to_phi[:] = self.laned(backward(weights, self.phi[t], self._kept[t], flat(to_v), total))
@@ -170,9 +138,3 @@ def largest(values: Any, root: float) -> tuple[Any, Any]:
 def flat(groups: Any) -> Any:
     """Return (groups, k, lanes) as rows (k, count)."""
     return groups.transpose(1, 0, 2).reshape(groups.shape[1], -1)
-
-
-def _same(values: Any) -> Any:
-    array = lanes(len(values))
-    array[:] = np.reshape(values, (-1, 1))
-    return array

@@ -95,7 +95,7 @@ def _hover(vehicle: Vehicle) -> Any:
 def _ask_law(vehicle: Vehicle, ahead: float) -> ca.Function:
     """Return (state (24 + n), own units) → v (n) of the tuned law, for the state `ahead` seconds later."""
     units, n = Units.of(vehicle), len(vehicle.rotor_spins)
-    state, packed = ca.SX.sym("state", SIZE + n), ca.SX.sym("packed", SIZE)
+    state, packed = ca.SX.sym("state", SIZE + 3 * n), ca.SX.sym("packed", SIZE)
     wrench = inverted().bind(vehicle).upright(ca.SX(0), packed)
     forces = rotor_forces(wrench[0], wrench[1:], vehicle, True)
     low, high = vehicle.rotor_limits
@@ -103,7 +103,7 @@ def _ask_law(vehicle: Vehicle, ahead: float) -> ca.Function:
     asked = ca.Function("asked", [packed], [level / ca.sqrt(1 - level**2) - float(_hover(vehicle))])
     timing = ca.DM(step_timing(vehicle.rotor_lag / units.time, ahead / units.time))
     machine = Scaled(ca.SX(ca.DM(units.numbers(vehicle))), n)
-    coming = step_once(state, state[SIZE:], timing, machine)[:SIZE] * ca.DM(units.of_state)
+    coming = step_once(state[: SIZE + n], state[SIZE : SIZE + n], timing, machine)[:SIZE] * ca.DM(units.of_state)
     return ca.Function("teacher", [state], ca.cse([ca.densify(asked(coming))]))
 
 

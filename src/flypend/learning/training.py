@@ -16,12 +16,16 @@ from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
 from flypend.laws.policy import MOST_WEIGHTS, Policy
-from flypend.learning.flights import Costs, Course, Flights
+from flypend.learning.course import Course
+from flypend.learning.flights import Costs, Flights
+from flypend.learning.machines import Machines
 from flypend.learning.network import Adam, Weights, first_weights
 from flypend.learning.teacher import RATE, Imitation, direct
 from flypend.model import State, Vehicle
 from flypend.model.mount import clearances
 from flypend.planning.dynamics import Units
+from flypend.plants.bands import check_bands
+from flypend.plants.sensors import Sensors
 from flypend.signals.waiting import result_of, threads
 
 AHEAD = 0.3  # s: what touches does so soon, or can be helped later
@@ -99,17 +103,23 @@ class Training:
     def told(self) -> dict[str, Any]:
         """All of it, for files."""
         course = {name: value for name, value in vars(self.course).items() if name != "vehicle"}
+        course["sensors"] = self.course.sensors and self.course.sensors.to_dict()
         return {**vars(self), "course": course, "vehicle": self.course.vehicle.to_dict()}
 
 
-def usual(vehicle: Vehicle, seed: int = 0, updates: int | None = None) -> Training:
+def usual(
+    vehicle: Vehicle, seed: int = 0, updates: int | None = None, bands: bool = False, sensors: Sensors | None = None
+) -> Training:
     """Return the training for `vehicle` of `flypend learn`.
 
-    On a hub keeping clear is what costs most, by far, and takes a larger network and smaller steps.
+    On a hub keeping clear is what costs most, by far, and takes a larger network and smaller steps. Raises InputError
+    for `bands` of a vehicle that has none.
     """
+    if bands:
+        check_bands(vehicle)
     if vehicle.mount != "hub":
-        return Training(Course(vehicle), seed=seed, updates=updates or 1500)
-    course = Course(vehicle, excursion=0.3, arms=40.0)
+        return Training(Course(vehicle, bands=bands, sensors=sensors), seed=seed, updates=updates or 1500)
+    course = Course(vehicle, excursion=0.3, arms=40.0, bands=bands, sensors=sensors)
     return Training(course, seed=seed, hidden=(96, 96), rate=2e-3, updates=updates or 1200)
 
 
@@ -140,6 +150,7 @@ class Learner:
         self.adam, self.done = Adam(self.weights), 0
         self.curve: list[Entry] = []
         self._parts = [Flights(training.course, training.batch // PARTS) for _ in range(PARTS)]
+        self._machines = Machines.of(training.course, training.seed)
         self._scouts = Scouts(training.course, training.batch // 2) if vehicle.mount == "hub" else None
         self._since: list[Costs] = []
 
@@ -163,6 +174,8 @@ class Learner:
         training, i = self.training, self.done
         rng = np.random.default_rng([training.seed, 2, i])
         starts = self._chosen(rng, training.batch).reshape(PARTS, -1, 24 + self._parts[0].rotors)
+        for part in self._parts:
+            self._enter(part, rng)
         with threadpool_limits(1, "blas"), threads(PARTS) as pool:
             calls = [pool.submit(self._flown, *part) for part in zip(self._parts, starts, strict=True)]
             flown = [result_of(call) for call in calls]
@@ -175,6 +188,13 @@ class Learner:
             together = Costs(*(np.concatenate(values) for values in zip(*self._since, strict=True)))
             self._add(together, 1, self.done, told)
             self._since = []
+
+    def _enter(self, flights: Flights, rng: np.random.Generator) -> None:
+        """Draw who flies, and how it is seen, if that differs from the vehicle as written and its state."""
+        machines, course = self._machines, self.training.course
+        if course.bands or course.sensors is not None:
+            errors = machines.errors(rng, flights.count) if course.sensors is not None else None
+            flights.enter(machines.choose(rng, flights.count), machines, errors)
 
     def _flown(self, flights: Flights, starts: Any) -> tuple[Costs, Weights]:
         flights.fly(self.weights, starts)

@@ -21,6 +21,8 @@ import numpy as np
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.result import Plan
 from flypend.planning.search import (
+    FINAL,
+    FINAL_IN_TIME,
     SOFT_LAST,
     Found,
     Guess,
@@ -32,6 +34,7 @@ from flypend.planning.search import (
     improved,
     together,
 )
+from flypend.planning.solver import Settings
 from flypend.planning.verdict import plans_of
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
@@ -109,14 +112,16 @@ class Search:
             tries.append(self._judged(asked, horizon, found))
         return tries
 
-    def finished(self, tried: Tried) -> Tried:
+    def finished(self, tried: Tried, settings: Settings = FINAL) -> Tried:
         """Solve what was `tried` to the end; as it is if nothing better comes of that, or its time is over."""
         if not tried or self.over:
             return tried
         forms = [tried.asked, *(self._attempts[-1:] if self._attempts[-1] is not tried.asked else [])]
         for asked in forms:  # what kept a constraint by chance may not do so to the end
             job = Job(asked, tried.found.style)
-            final = self._judged(asked, tried.horizon, finished(job, tried.horizon, tried.found, self._deadline))
+            final = self._judged(
+                asked, tried.horizon, finished(job, tried.horizon, tried.found, self._deadline, settings)
+            )
             if final and (not final.found.unfinished or final.found.cost < tried.found.cost):
                 return final
         return tried
@@ -189,7 +194,7 @@ def shortest(search: Search, horizons: Sequence[float]) -> Plan:
         field = sorted((_shortened(search, each, step) for each in field), key=lambda each: each.horizon)
         reached[: len(field)] = [each.horizon for each in field]
         field = [each for each in field if each.horizon <= (1 + behind) * field[0].horizon][:MOST]
-    return search.told(search.finished(field[0]), reached)
+    return search.told(search.finished(field[0], FINAL_IN_TIME), reached)
 
 
 def _shortened(search: Search, tried: Tried, step: float) -> Tried:

@@ -34,11 +34,13 @@ MOST_ITERATIONS = 80
 # A search is over when at so small a barrier the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
 # What it found is solved to the end, which takes 8 to 90 iterations: from a little inside the limits, with a smaller
-# barrier, and the end as far off as its tolerances allow.
+# barrier, and each error at the end within 1/√3 of its tolerance, so that vectors of errors are within theirs.
 FINAL = Settings(
-    barrier=1e-5, least_barrier=3e-7, cooling=0.5, long=0.3, missed=0.98, multipliers=True, inside=1e-4, slack=1e-3,
+    barrier=1e-5, least_barrier=1e-6, cooling=0.5, long=0.3, missed=0.57, multipliers=True, inside=1e-4, slack=1e-3,
     margin=(1e-3, 1e-5),
 )  # fmt: skip
+# In the least time, the end is reached with all that its tolerances and limits allow: less leaves no room to converge.
+FINAL_IN_TIME = replace(FINAL, least_barrier=3e-7, missed=0.98)
 # It has converged when so many times in a row the next step would change the cost by less than this share, barrier
 # included: then IPOPT, begun there, finds less than 1 % of it to improve.
 STATIONARY, STATIONARY_FOR, MOST_FINAL = 1e-4, 2, 150
@@ -247,10 +249,11 @@ class Watch:
 
 
 class FinalWatch(Watch):
-    """Watches a lane that solves a `job` to the end: until the conditions of first order hold."""
+    """Watches a lane that solves a `job` to the end with `settings`: until the conditions of first order hold."""
 
-    def __init__(self, job: Job, lane: int = 0) -> None:
+    def __init__(self, job: Job, lane: int = 0, settings: Settings = FINAL) -> None:
         super().__init__([job], [lane], MOST_FINAL, SOFT_LAST)
+        self.settings = settings
         self._times = 0
 
     @property
@@ -264,7 +267,7 @@ class FinalWatch(Watch):
         super().after(solver, verdict, spent)
         lane = int(self._on[0])
         self._best = float(verdict.cost[lane])
-        small = verdict.stationarity[lane] <= STATIONARY and verdict.barrier[lane] <= FINAL.least_barrier
+        small = verdict.stationarity[lane] <= STATIONARY and verdict.barrier[lane] <= self.settings.least_barrier
         self._times = self._times + 1 if small and np.isfinite(self._best) else 0
 
     def found(self, solver: Solver | Race) -> Found:
@@ -316,14 +319,15 @@ def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Wat
 
     `job` says what is asked for, and the number of the guess. By default it is watched as one that keeps its distance.
     """
-    settings = FINAL if isinstance(watch, FinalWatch) else DEFAULT
+    settings = watch.settings if isinstance(watch, FinalWatch) else DEFAULT
     race = Race(_alone(job.asked), *_begun([job], horizon, [guess]), {}, settings=settings)
     return _raced(race, watch or Watch([job], [0], soft=SOFT_LAST), job.asked.structure.soft, deadline)
 
 
-def finished(job: Job, horizon: float, found: Found, deadline: float) -> Found:
-    """Solve what was `found` for a `job` to the end."""
-    return _joined(found, improved(job, horizon, (found.states, found.commands), deadline, FinalWatch(job)))
+def finished(job: Job, horizon: float, found: Found, deadline: float, settings: Settings = FINAL) -> Found:
+    """Solve what was `found` for a `job` to the end with `settings`."""
+    watch = FinalWatch(job, settings=settings)
+    return _joined(found, improved(job, horizon, (found.states, found.commands), deadline, watch))
 
 
 def _joined(found: Found, final: Found) -> Found:

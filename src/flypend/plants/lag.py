@@ -72,6 +72,14 @@ def hold(rotors: Numbers, command: Numbers, timing: Numbers) -> tuple[Ramp, Numb
     return ramp, command + timing[1] * deviation
 
 
+def join_ramps(first: Ramp, second: Ramp, before: Scalar, after: Scalar) -> Ramp:
+    """Return the ramp with mean and first moment of `first`, for `before` seconds, and then `second`, for `after`."""
+    whole = before + after
+    mean = (before * first.mean + after * second.mean) / whole
+    apart = 6 * before * after * (second.mean - first.mean)
+    return Ramp(mean, (apart + before**2 * first.change + after**2 * second.change) / whole**2)
+
+
 def hold_in_turn(
     rotors: Numbers, commands: Sequence[Any], durations: Sequence[float], lag: float
 ) -> tuple[Ramp, Numbers]:

@@ -109,7 +109,8 @@ class Sensors:
     moment_error : float
         Density of the angular acceleration that the model lacks, rad/s²/√Hz.
     command_delay : float, optional
-        Delay from measurement to command that the estimator assumes, s; default that of the plant.
+        Delay from measurement to command that the estimator assumes, s; default that of the plant. Under a law that
+        looks for its delay, until the flight has told it.
     gyro_bias, gyro_scale : float or (3,)
         Error of the gyroscope that lasts, rad/s, and that of its scale per axis. Of these and all errors below that may
         be vectors: a vector is the error of every flight; a number is a standard deviation per component, from which

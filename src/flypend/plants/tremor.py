@@ -142,6 +142,19 @@ def _tremor(law: BoundLaw, sensors: Sensors, period: float, delay: float, flown:
     return Tremor(*(float(np.sqrt(np.sum(variances[part]))) for part in (PLACE, AXIS)))
 
 
+def estimate_errors(vehicle: Vehicle, sensors: Sensors, period: float, times: int) -> tuple[Numbers, Numbers]:
+    """Return (F, Q) of the estimator's error e in hover over `times` control periods: e⁺ = F e + noise of covariance Q.
+
+    Coordinates are those of `laws.linearise` without the heading, (15,), SI units; `period` is that of control, s.
+    """
+    with threadpool_limits(1):
+        F, Q = _filtered(_motion(vehicle)[0], sensors.told, vehicle, period)
+        over, added = np.eye(len(F)), np.zeros_like(Q)
+        for _ in range(times):
+            over, added = F @ over, F @ added @ F.T + Q
+    return over, added
+
+
 def _motion(vehicle: Vehicle) -> tuple[Numbers, Numbers]:
     """Return A and B of `vehicle` in hover."""
     A, B = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))

@@ -120,8 +120,8 @@ def advise(
 ) -> Advice:
     """Name the best of checked laws, or find out which change of `vehicle` would do.
 
-    The best law succeeds from 90 % of the random starts, of drawn vehicles if those were flown; no other law's interval
-    of success lies above its own; and of such laws its median excursion is the smallest.
+    The best law succeeds from 90 % of the random starts, of drawn vehicles if those were flown, and is the best of such
+    laws by `best_of`.
 
     Parameters
     ----------
@@ -136,15 +136,22 @@ def advise(
     """
     flown = {law: _judged(check) for law, check in checks.items() if check.ok and check.tasks}
     why = "; ".join(f"{law}: {_told(flown[law])}" if law in flown else f"{law}: cannot hover" for law in checks)
-    able = {law: one for law, one in flown.items() if one.rate >= LEAST_RATE}
+    best = best_of(flown)
     written = tuple(law for law in flown if checks[law].tasks["random"].rate >= LEAST_RATE)
-    if not able and written:
+    if not best and written:
         return Advice("", why, as_written=written)
-    if not able:
-        return Advice("", why, changes_of(vehicle, plant, seed, progress))
-    surest = max(one.interval[0] for one in able.values())
+    return Advice(best, why, () if best else changes_of(vehicle, plant, seed, progress))
+
+
+def best_of(flown: Mapping[str, Ensemble]) -> str:
+    """Return the best law of `flown`, from the same starts; empty if none succeeds from 90 % of them.
+
+    No other law's interval of success lies above its own, and of such laws its median excursion is the smallest.
+    """
+    able = {law: one for law, one in flown.items() if one.rate >= LEAST_RATE}
+    surest = max((one.interval[0] for one in able.values()), default=1.0)
     equal = {law: one.percentile("excursion", 50) for law, one in able.items() if one.interval[1] >= surest}
-    return Advice(min(equal, key=equal.__getitem__), why)
+    return min(equal, key=equal.__getitem__, default="")
 
 
 def changes_of(

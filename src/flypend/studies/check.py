@@ -22,8 +22,9 @@ from flypend.model import State, Vehicle
 from flypend.planning.planner import plan_ensemble
 from flypend.planning.result import PlanEnsemble
 from flypend.plants import AnyPlant, Sampled
+from flypend.plants.bands import check_bands
 from flypend.plants.tremor import too_noisy
-from flypend.studies.bands import check_bands, fly_within
+from flypend.studies.bands import fly_within
 from flypend.studies.compare import summary
 from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
 

@@ -19,10 +19,10 @@ from flypend.flight.tasks import task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import State, Vehicle
 from flypend.plants import PRESETS, SUITES, AnyPlant, Sampled
+from flypend.plants.bands import world_of
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
 from flypend.signals.waiting import result_of, threads
-from flypend.studies.bands import world_of
 from flypend.studies.margins import LEAST_RATE, SEARCHES
 from flypend.studies.trial import is_up, knock_on
 

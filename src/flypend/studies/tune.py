@@ -17,7 +17,8 @@ from flypend.flight.metrics import wilson
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.plants import AnyPlant, Sampled
-from flypend.studies.bands import check_bands, worlds_within
+from flypend.plants.bands import check_bands
+from flypend.studies.bands import worlds_within
 from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import program_digest

@@ -57,13 +57,14 @@ h1 { margin: 0; font-size: 1.214rem; font-weight: 650; letter-spacing: -0.01em; 
 .scene > .invite { position: absolute; left: 50%; top: 16%; transform: translateX(-50%); margin: 0; }
 .scene > .invite.under { top: auto; bottom: 20%; }
 .plots { grid-area: plots; display: flex; flex-direction: column; gap: 0.42857rem; min-height: 0; padding: 0 0.85714rem; overflow: hidden auto; }
-.plot { margin: 0; flex: 1 1 0; min-height: 8.42857rem; display: flex; flex-direction: column; }
-.plot.wide { flex-grow: 1.5; }
+.plot { margin: 0; flex: 1 1 0; min-height: 8rem; display: flex; flex-direction: column; }
+.plot.wide { flex-grow: 1.5; min-height: 10.71429rem; } /* many curves, still told apart where the column is short */
 .plot figcaption { display: flex; flex-wrap: wrap; justify-content: space-between; gap: 0 0.85714rem; padding: 0 0.85714rem 0 3.28571rem; font-size: 0.893rem; }
 .what { font-weight: 600; }
 .values { display: flex; flex-wrap: wrap; gap: 0 0.57143rem; font-variant-numeric: tabular-nums; }
-.wide .values { gap: 0 0.21429rem; }
-.wide .values output { min-width: 2.3em; }
+.wide .values { gap: 0 0.35714rem; }
+.wide .values output { min-width: 2.2em; }
+.wide .mark { width: 0.85714rem; margin-right: 0.14286rem; }
 .values > span { display: inline-flex; align-items: baseline; }
 .values b { font-weight: 600; margin-right: 0.28571rem; white-space: nowrap; }
 .values sub { font-size: 0.75em; line-height: 0; }
@@ -195,6 +196,7 @@ main:not(.running) .has-place { display: none; }
 .chips { display: flex; flex-wrap: wrap; align-items: center; gap: 0.35714rem 0.28571rem; margin: 0.35714rem 0; }
 .chips span { font-size: 0.893rem; color: var(--muted); margin-right: 0.21429rem; }
 .panel .chips button { padding: 0.28571rem 0.5rem; border-radius: 7.07143rem; font-size: 0.857rem; }
+.papers:not(:has(button)) { display: none; } /* no start of the paper flies here */
 .panel .papers button { min-width: 2.21429rem; }
 .story { display: contents; }
 .story h2 { margin: 0; font-size: 0.929rem; font-weight: 650; }
@@ -249,6 +251,10 @@ main:not(.running) .has-place { display: none; }
   .lab .plots { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); grid-auto-rows: minmax(8.85714rem, 1fr); padding: 0.57143rem 0.85714rem; border-top: 0.07143rem solid var(--line); }
   .lab .plots:has(> :nth-child(5)) { grid-template-columns: repeat(3, minmax(0, 1fr)); }
   .map { grid-template: minmax(0, 1fr) auto / minmax(0, 1fr); padding: 0 1.42857rem 1.42857rem 0.57143rem; }
+  .story { flex: 1 1 100%; display: flex; flex-wrap: wrap; align-items: center; gap: 0.42857rem 1.14286rem; } /* its title stays beside its numbers */
+  .panel .papers span { flex: 1 0 100%; }
+  .tuned .choices { gap: 0.28571rem; }
+  .tuned .choice :is(button, select) { padding: 0.42857rem; }
 }
 @media (max-width: 760px) {
   main.lab, main.lab.tuned { grid-template: auto 42vh auto auto auto auto / minmax(0, 1fr); grid-template-areas: "head" "scene" "bar" "foot" "panel" "plots"; }
@@ -307,6 +313,7 @@ main.lab.figure { height: 100dvh; min-height: 0; overflow: hidden; grid-template
 @media (max-width: 600px) {
   main.lab.figure { grid-template: auto minmax(0, 1fr) auto auto 9.28571rem / minmax(0, 1fr); grid-template-areas: "head" "scene" "bar" "foot" "plots"; }
   .figure header { padding: 0 0.28571rem 0.42857rem; }
+  .figure .recovered { display: none; } /* it would lie on a rod that stands */
 }
 `;var kc=[.1,.25,.5,1,2],ag=2,Ro=class{constructor(t,e,i){Object.assign(this,{start:t,end:e,changed:i,time:t,speed:1,playing:!1,drive:null,loop:!1,rested:0})}span(t,e){Object.assign(this,{start:t,end:e}),this.seek(this.time)}follow(t){this.drive=t,this.playing=!!t,this.changed()}play(){this.drive?this.time=this.end:this.time>=this.end&&(this.time=this.start),this.playing=!!this.drive||this.end>this.start,this.changed()}pause(){this.playing=!1,this.changed()}toggle(){this.playing?this.pause():this.play()}seek(t){Number.isFinite(t)&&(this.time=Se(t,this.start,this.end),this.changed())}setSpeed(t){t>0&&(this.speed=t,this.changed())}shift(t){let e=kc.filter(i=>(i-this.speed)*t>1e-9);e.length&&this.setSpeed(t>0?e[0]:e[e.length-1])}tick(t){if(this.playing){if(this.drive){this.drive(t,this.speed);return}this.time=Math.min(this.time+t*this.speed,this.end),this.time<this.end?this.rested=0:this.loop?(this.rested+=t)>ag&&(this.time=this.start):this.pause()}}};var _i=()=>parseFloat(getComputedStyle(document.documentElement).fontSize)/14;function ns(s,t,e){let{canvas:i}=s,n=_i()*(window.devicePixelRatio||1),r=Math.round(t*n),o=Math.round(e*n);(i.width!==r||i.height!==o)&&Object.assign(i,{width:r,height:o}),s.setTransform(1,0,0,1,0,0),s.clearRect(0,0,r,o),s.setTransform(n,0,0,n,0,0)}var Co=s=>`${s}px system-ui, sans-serif`;function Pi(s,t){s.moved!==t&&(s.moved=t,s.style.transform=t)}function we(s,t){let{firstChild:e}=s;e?e.data!==t&&(e.data=t):s.textContent=t}var lg={play:"M8 5.5v13l11-6.5z",pause:"M7 5h3.6v14H7zM13.4 5H17v14h-3.6z",again:"M12 5V1.8L7 6l5 4.2V7a5 5 0 1 1-5 5H5a7 7 0 1 0 7-7z"},Io=class{constructor(t,e){this.clock=e,t.innerHTML=`<button class="play" type="button"><svg viewBox="0 0 24 24" aria-hidden="true"><path/></svg></button>
       <output class="time"></output>

@@ -57,13 +57,14 @@ h1 { margin: 0; font-size: 1.214rem; font-weight: 650; letter-spacing: -0.01em; 
 .scene > .invite { position: absolute; left: 50%; top: 16%; transform: translateX(-50%); margin: 0; }
 .scene > .invite.under { top: auto; bottom: 20%; }
 .plots { grid-area: plots; display: flex; flex-direction: column; gap: 0.42857rem; min-height: 0; padding: 0 0.85714rem; overflow: hidden auto; }
-.plot { margin: 0; flex: 1 1 0; min-height: 8.42857rem; display: flex; flex-direction: column; }
-.plot.wide { flex-grow: 1.5; }
+.plot { margin: 0; flex: 1 1 0; min-height: 8rem; display: flex; flex-direction: column; }
+.plot.wide { flex-grow: 1.5; min-height: 10.71429rem; } /* many curves, still told apart where the column is short */
 .plot figcaption { display: flex; flex-wrap: wrap; justify-content: space-between; gap: 0 0.85714rem; padding: 0 0.85714rem 0 3.28571rem; font-size: 0.893rem; }
 .what { font-weight: 600; }
 .values { display: flex; flex-wrap: wrap; gap: 0 0.57143rem; font-variant-numeric: tabular-nums; }
-.wide .values { gap: 0 0.21429rem; }
-.wide .values output { min-width: 2.3em; }
+.wide .values { gap: 0 0.35714rem; }
+.wide .values output { min-width: 2.2em; }
+.wide .mark { width: 0.85714rem; margin-right: 0.14286rem; }
 .values > span { display: inline-flex; align-items: baseline; }
 .values b { font-weight: 600; margin-right: 0.28571rem; white-space: nowrap; }
 .values sub { font-size: 0.75em; line-height: 0; }

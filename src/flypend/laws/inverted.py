@@ -63,6 +63,9 @@ HUB_CONE, CUP_SHARE = 1.4, 0.8
 ANTIPODE_PUSH = 0.03
 # Largest rate demanded of the thrust axis, in units of √α: the vehicle stops from it within TURN²/2 rad.
 TURN = 1.3
+# Errors of the rod, its rate in √(g/l), and velocity in √(g l), at which half of the calm is left: some ten times those
+# of hover on noisy sensors, and small beside those of a catch, whose excursion calm gains would enlarge.
+NEAR = (0.12, 0.2, 0.35)
 # Rotors that follow a fast spin are at their limits, where no lead helps: the body turns on for this multiple of their
 # lag, chosen among 0.4 to 2 by how many spins of 20 to 40 rad/s recover.
 SPIN_LAG = 1.3
@@ -104,6 +107,17 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
     )
 
 
+def nearness(state: State, x_dot_ref: Vector, y_ref: Vector, vehicle: Vehicle) -> Scalar:
+    """Return how near the motion is to its reference: 1 there, 1/2 where one error has its size in `NEAR`."""
+    rod, swing, drift = state.y - y_ref, state.y_dot, state.x_dot - x_dot_ref
+    far = (
+        dot(rod, rod) / NEAR[0] ** 2
+        + dot(swing, swing) * vehicle.l / vehicle.g / NEAR[1] ** 2
+        + dot(drift, drift) / (vehicle.g * vehicle.l) / NEAR[2] ** 2
+    )
+    return 1 / (1 + far)
+
+
 class Mounting(NamedTuple):
     """What the law takes from the vehicle besides gains.
 
@@ -130,7 +144,7 @@ class Mounting(NamedTuple):
     shift: float
 
 
-def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]:
+def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Any]:
     hub = vehicle.mount == "hub"
     cones = {"gimbal": None, "hub": HUB_CONE}
     numbers = scales(vehicle).numbers
@@ -143,7 +157,7 @@ def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Mounting]:
         haste=numbers["haste"],
         shift=numbers["shift"],
     )
-    return {"mounting": mounting}
+    return {"mounting": mounting, "calming": {}}
 
 
 def inverted_control(
@@ -158,7 +172,29 @@ def inverted_control(
     """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `inverted`.
 
     `forces` are the estimated external forces on vehicle and bob, each (3, 1), N; `path` is the path of pivot and bob.
+    On noisy sensors `k.calming` has factors of gains, which act near the path.
     """
+    if not k.calming:
+        return _cascade(t, state, vehicle, k, forces, path)
+    near = ca.SX.sym("near")  # held constant while rates are derived
+    calmed = {name: ratio**near * getattr(k, name) for name, ratio in k.calming.items()}
+    found = _cascade(t, state, vehicle, SimpleNamespace(**{**vars(k), **calmed}), forces, path)
+    x_ref, _, y_ref = path(t, vehicle, forces[1])
+    share = nearness(state, derivatives(x_ref, t, 1)[0], y_ref, vehicle)
+    values = [found.wrench.thrust, found.wrench.moment, *found.signals.values()]
+    f, moment, *signals = ca.substitute(values, [near], [share])
+    return Control(wrench=Wrench(f, moment), signals=dict(zip(found.signals, signals, strict=True)))
+
+
+def _cascade(
+    t: Scalar,
+    state: State,
+    vehicle: Vehicle,
+    k: SimpleNamespace,
+    forces: tuple[Vector, Vector],
+    path: Path,
+) -> Control:
+    """Evaluate the law as `inverted_control` does, with gains that are the same everywhere."""
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
     p = [ca.densify(value) for value in (p_ref, *derivatives(p_ref, t, DERIVATIVES))]
     ideal = motion(p, vehicle) if ca.depends_on(p[2], t) else None

@@ -179,8 +179,12 @@ class Law(Tunable):
         return partial(self._calmed, self.calm, vehicle)
 
     def _calmed(self, calm: Callable[[Vehicle, float], Values], vehicle: Vehicle, share: float) -> BoundLaw:
-        """Return the law bound to `vehicle` with the gains of `calm` by `share` that were not given."""
+        """Return the law bound to `vehicle`, near its reference with the gains of `calm` that were not given."""
         if share == 0:
             return self.bind(vehicle)
-        free = {name: value for name, value in calm(vehicle, share).items() if name not in self.given}
-        return replace(self.with_gains(free)._bind(vehicle), calmer=partial(self._calmed, calm, vehicle), calm=share)
+        bound = self.bind(vehicle)
+        ratios = {
+            name: value / bound.gains[name] for name, value in calm(vehicle, share).items() if name not in self.given
+        }
+        prepared = {**bound.prepared, "calming": ratios}
+        return replace(bound, prepared=prepared, calmer=partial(self._calmed, calm, vehicle), calm=share)

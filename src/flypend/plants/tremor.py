@@ -38,13 +38,11 @@ PLACE = [KEPT.index(COORDINATES.index(f"x_{i}")) for i in (1, 2, 3)]
 AXIS = [KEPT.index(COORDINATES.index(f"theta_{i}")) for i in (1, 2)]
 # Largest tremor of the thrust axis, rad, RMS. Errors of the axis about two directions exceed r at one instant with
 # probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05. With
-# σ = 0.05/3, one flight in 400 does not.
-MOST_TREMOR = 0.05 / 3
+# σ = 0.05/4 that is one flight in a million, and one in 300 of a machine that trembles by a third more than believed.
+MOST_TREMOR = 0.05 / 4
 SHARES = 8  # steps from the default gains to the calmest
 # What a machine may have of the believed masses and rod, at least: where loops are fastest, rotors with a lag resonate.
-# Of such flights, one in 25 may fail.
 LIGHT = {"mass": 0.8, "bob_mass": 0.8, "rod_length": 0.85}
-MOST_LIGHT_TREMOR = 0.05 / 2.5
 # Densities are of order 1e-8 in SI units; in these the Riccati equation is well conditioned.
 UNIT = 1e-6
 ROUNDOFF = 1e-12
@@ -60,7 +58,7 @@ class Tremor(NamedTuple):
 
 
 def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
-    """Return `law` with its default gains calmed until hover on the sensors of `plant` trembles little enough.
+    """Return `law` calmed near its reference until hover on the sensors of `plant` trembles little enough.
 
     So must hover of a vehicle lighter than believed, by `LIGHT`. The law is unchanged if it has no such gains, or
     `plant` no estimator.
@@ -80,8 +78,7 @@ def _calm(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> Bound
 
     def trembles(step: int) -> bool:
         calmed = law.calmed(step / SHARES)
-        most = {vehicle: MOST_TREMOR, light: MOST_LIGHT_TREMOR}
-        return any(tremor(calmed, sensors, period, delay, flown).axis > axis for flown, axis in most.items())
+        return any(tremor(calmed, sensors, period, delay, flown).axis > MOST_TREMOR for flown in (vehicle, light))
 
     if not trembles(0):
         return law

@@ -125,8 +125,8 @@ class BoundLaw(Tunable):
     theorem, certify : callable, optional
         As in `Law`.
     calmer : callable, optional
-        `calmer(share)` returns the law with gains this far from its defaults towards those that tremble least under
-        noise (see `calmed`); None for a law that has no such gains.
+        `calmer(share)` returns the law with gains that, near its reference, are this far from its defaults towards those
+        that tremble least under noise (see `calmed`); None for a law that has no such gains.
     calm : float
         That share, of this law.
     within_limits : bool
@@ -191,7 +191,10 @@ class BoundLaw(Tunable):
         return self.certify(self)
 
     def calmed(self, share: float) -> BoundLaw:
-        """Return the law with default gains moved by `share`, 0 to 1, to those that tremble least; given ones stay."""
+        """Return the law with default gains moved by `share`, 0 to 1, to those that tremble least, near its reference.
+
+        Gains that were given stay.
+        """
         if self.calmer is None or share == self.calm:
             return self
         found = self.calmer(share)

@@ -36,10 +36,11 @@ from flypend.plants.sensors import Sensors
 KEPT = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
 PLACE = [KEPT.index(COORDINATES.index(f"x_{i}")) for i in (1, 2, 3)]
 AXIS = [KEPT.index(COORDINATES.index(f"theta_{i}")) for i in (1, 2)]
-# Largest tremor of the thrust axis, rad, RMS. Errors of the axis about two directions exceed r at one instant with
-# probability exp(−r²/σ²); a flight stands if none of some twenty independent instants of a second exceeds 0.05. With
-# σ = 0.05/4 that is one flight in a million, and one in 300 of a machine that trembles by a third more than believed.
-MOST_TREMOR = 0.05 / 4
+# Largest tremor of the thrust axis, rad, RMS, with which flights stand, and that up to which a law is calmed. Errors of
+# the axis about two directions exceed r at one instant with probability exp(−r²/σ²); a flight stands if none of some
+# twenty independent instants of a second exceeds 0.05. With σ = 0.05/3 one flight in 400 does not, with 0.05/4 one in
+# 400,000, so that a machine may tremble by a third more than believed.
+MOST_TREMOR, CALM_TREMOR = 0.05 / 3, 0.05 / 4
 SHARES = 8  # steps from the default gains to the calmest
 # What a machine may have of the believed masses and rod, at least: where loops are fastest, rotors with a lag resonate.
 LIGHT = {"mass": 0.8, "bob_mass": 0.8, "rod_length": 0.85}
@@ -72,13 +73,13 @@ def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
 
 @lru_cache(maxsize=64)
 def _calm(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> BoundLaw:
-    """Return `law` with the least share of calm with which it trembles by no more than `MOST_TREMOR`; else with all."""
+    """Return `law` with the least share of calm with which it trembles by no more than `CALM_TREMOR`; else with all."""
     vehicle = law.vehicle
     light = vehicle.replace(**{name: share * getattr(vehicle, name) for name, share in LIGHT.items()})
 
     def trembles(step: int) -> bool:
         calmed = law.calmed(step / SHARES)
-        return any(tremor(calmed, sensors, period, delay, flown).axis > MOST_TREMOR for flown in (vehicle, light))
+        return any(tremor(calmed, sensors, period, delay, flown).axis > CALM_TREMOR for flown in (vehicle, light))
 
     if not trembles(0):
         return law

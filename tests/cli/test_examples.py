@@ -143,7 +143,8 @@ def test_a_manoeuvre_is_flown_as_it_is_described(at_home, name):
     start, wishes = own["MANOEUVRES"][name]
     plan, run = own["fly"](name)
     assert metrics(run).success
-    assert plan.status == "converged"
+    # Through a window, below a bar and past waypoints the search ends with a plan that keeps them, not at an optimum.
+    assert plan.status in ("converged", *["feasible"] * (name in ("door", "low", "slalom")))
     upright = run.y[:, 2].min() > 0
     assert upright == (name not in ("cube", "low"))
     tips = np.abs([run.x, run.x + VEHICLE.reach * run.y])

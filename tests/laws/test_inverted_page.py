@@ -170,14 +170,3 @@ def test_the_swing_up_of_the_readme_passes_through_a_rotor(clearance):
     assert rod[0, 2] == pytest.approx(-1)
     assert rod[-1, 2] > 0.99
     assert clearance.nearest(clearance.crossings(rod), VEHICLE) < 5e-3  # m, of a disc of 63.5 mm
-
-
-@pytest.mark.slow
-def test_the_counts_of_the_page(clearance, capsys, monkeypatch):
-    monkeypatch.setattr("sys.argv", ["clearance", "1000"])
-    clearance.main()
-    printed = capsys.readouterr().out
-    wide, narrow, above = (int(text) for text in re.findall(r": (\d+) of 1000", printed))
-    assert [narrow, wide, above] == told(
-        r"hehn2011, (\d+) \(15.6 %.*? the rotors, (\d+) \(.*? 0.0635 m, and (\d+) \(5.2"
-    )

@@ -843,7 +843,7 @@ def test_a_learned_law_flies_with_its_network_inside(visit, tmp_path):
     path = tmp_path / "mine.npz"
     save(policy("hehn2011"), path)
     vehicle = fp.vehicle("hehn2011")
-    run = fp.simulate(vehicle, fp.laws.learned(policy=str(path)), fp.State(y=(0, 0, -1)), 3.0)
+    run = fp.simulate(vehicle, fp.laws.learned(policy=str(path)), fp.State(y=(0, 0, -1)), 5.0)
     page = visit(run)
     path.unlink()
     assert_flies(page, run)

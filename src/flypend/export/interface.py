@@ -95,10 +95,8 @@ class Interface:
 
     @property
     def law(self) -> BoundLaw:
-        """The bound law, with the gains that its sensors ask for."""
-        if self.sensing is None:
-            return self.loop.symbolic
-        return replace(self.loop, plant=self.loop.sampled.replace(sensors=self.sensing.sensors)).symbolic
+        """The bound law, as calm as its sensors ask for."""
+        return _calmed(self.loop, None if self.sensing is None else self.sensing.sensors)
 
     @property
     def vehicle(self) -> Vehicle:
@@ -137,7 +135,7 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
     params = ca.SX.sym("params", record.length)
     stand_in = SymbolicVehicle(params, record, vehicle)
     believed = Believed(stand_in, rotors.length, vehicle.rotor_lag, params)
-    names, constant, steering = _law(loop.symbolic, params, stand_in)
+    names, constant, steering = _law(_calmed(loop, sensors), params, stand_in)
     loop = replace(loop, parameters=tuple(names))
     functions = [
         steering,
@@ -194,6 +192,11 @@ def _sound(sensors: Sensors) -> ca.Function:
 
 
 # The law ----------------------------------------------------------------------------------------------------------
+
+
+def _calmed(loop: Loop, sensors: Sensors | None) -> BoundLaw:
+    """Return the law of `loop`, as calm as `sensors` ask for."""
+    return replace(loop, plant=loop.sampled.replace(sensors=sensors)).symbolic
 
 
 def _law(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str, ...], ca.Function]:

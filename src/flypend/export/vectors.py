@@ -91,12 +91,15 @@ class Flights:
     rotors: Any
 
 
-def flights(loop: Loop, count: int, steps: int, seed: int, precision: Precision) -> Flights:
+def flights(
+    loop: Loop, count: int, steps: int, seed: int, precision: Precision, law: BoundLaw | None = None
+) -> Flights:
     """`count` flights of `steps` control periods of the board of `loop` from random states along random paths.
 
-    The board of Python flies the vehicle under random constant forces; its inputs are rounded to `precision`.
+    The board of Python flies the vehicle under random constant forces, by `law` or else that of `loop`; its inputs are
+    rounded to `precision`.
     """
-    rng, step, rotors = np.random.default_rng(seed), board_step(loop), loop.vehicle.rotor_limits[0]
+    rng, step, rotors = np.random.default_rng(seed), board_step(loop, law), loop.vehicle.rotor_limits[0]
     period, weight, n = 1 / loop.sampled.rate, loop.vehicle.weight, len(loop.vehicle.rotor_spins)
     columns: tuple[list[Any], list[Any], list[Any]] = ([], [], [])
     for _ in range(count):
@@ -115,14 +118,17 @@ def flights(loop: Loop, count: int, steps: int, seed: int, precision: Precision)
 
 
 @lru_cache(maxsize=16)
-def board_step(loop: Loop) -> ca.Function:
-    """The board of `loop` with all numbers as constants: (memory, measurement, path, –, –) → (memory, command)."""
+def board_step(loop: Loop, law: BoundLaw | None = None) -> ca.Function:
+    """The board of `loop` with all numbers as constants: (memory, measurement, path, –, –) → (memory, command).
+
+    It flies `law`, by default that of `loop`.
+    """
     loop = replace(loop, parameters=())
     believed = Believed.numbers(loop.vehicle)
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
         reference = reference_numbers(vehicle, shift_path(path, t), forces[3:])  # the measurement is at t = 0
-        return wrench_from_stream(loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
+        return wrench_from_stream(law or loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 
     length = records.PATH.length
     return board(loop, believed, law_command(loop, believed, steer, length), length)

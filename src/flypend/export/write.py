@@ -243,7 +243,7 @@ def _structs(made: Interface) -> list[str]:
 
 def _vectors(made: Interface, precision: Precision) -> str:
     found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
-    flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision)
+    flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision, made.law)
     kinds: tuple[Record, ...] = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
     lines = [
         "/* Random inputs, and what flypend answers in Python. */",

@@ -125,8 +125,8 @@ class BoundLaw(Tunable):
     theorem, certify : callable, optional
         As in `Law`.
     calmer : callable, optional
-        `calmer(share)` returns the law with gains that, near its reference, are this far from its defaults towards those
-        that tremble least under noise (see `calmed`); None for a law that has no such gains.
+        `calmer(share)` returns the law with gains that, near its reference, are this far from its defaults towards
+        those that tremble least under noise (see `calmed`); None for a law that has no such gains.
     calm : float
         That share, of this law.
     within_limits : bool

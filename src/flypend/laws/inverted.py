@@ -177,7 +177,7 @@ def inverted_control(
     if not k.calming:
         return _cascade(t, state, vehicle, k, forces, path)
     near = ca.SX.sym("near")  # held constant while rates are derived
-    calmed = {name: ratio**near * getattr(k, name) for name, ratio in k.calming.items()}
+    calmed = {name: (1 + near * (ratio - 1)) * getattr(k, name) for name, ratio in k.calming.items()}
     found = _cascade(t, state, vehicle, SimpleNamespace(**{**vars(k), **calmed}), forces, path)
     x_ref, _, y_ref = path(t, vehicle, forces[1])
     share = nearness(state, derivatives(x_ref, t, 1)[0], y_ref, vehicle)

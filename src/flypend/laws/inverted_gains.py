@@ -66,11 +66,11 @@ MOUNTED: Mapping[str, Mapping[str, float]] = MappingProxyType(
         "cup": {"catch_within": 2.0, "catch_width": 0.1, "catch_by_axis": 0.0, "catch_time": 0.0},
     }
 )  # fmt: skip
-# Factors of the default gains with which hover trembles least where the state is estimated from noisy readings; they act
-# near the reference, since they would enlarge a catch. They minimise the tremor of `plants.tremor` of 13 agile and 10 pumping vehicles of
-# `benchmarks.vehicles` whose loops keep their damping with 15 % more or less gain and with delays of 5 ms and 0.15 lags
-# more than believed. Two are brought back by flights: the position loop of an agile vehicle, for its excursion, and the
-# rod's of a pumping one, so that the rod is still caught.
+# Factors of the default gains with which hover trembles least where the state is estimated from noisy readings. They
+# act near the reference, since they would enlarge a catch, and minimise the tremor of `plants.tremor` of 13 agile and
+# 10 pumping vehicles of `benchmarks.vehicles` whose loops keep their damping with 15 % more or less gain and with
+# delays of 5 ms and 0.15 lags more than believed. Two are brought back by flights: the position loop of an agile
+# vehicle, for its excursion, and the rod's of a pumping one, so that the rod is still caught.
 CALM: Mapping[bool, Mapping[str, float]] = MappingProxyType(
     {
         True: {

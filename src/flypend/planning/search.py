@@ -42,7 +42,7 @@ FINAL = Settings(
 # In the least time, the end is reached with all that its tolerances and limits allow: less leaves no room to converge.
 FINAL_IN_TIME = replace(FINAL, least_barrier=3e-7, missed=0.98)
 # It has converged when so many times in a row the next step would change the cost by less than this share, barrier
-# included: then IPOPT, begun there, finds less than 1 % of it to improve.
+# included: then IPOPT, begun there, finds less than 1 % of an excursion to improve, and 4 % of an effort.
 STATIONARY, STATIONARY_FOR, MOST_FINAL = 1e-4, 2, 150
 SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
 SAME = 0.01  # share by which costs of guesses differ that lead to the same plan

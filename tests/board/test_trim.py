@@ -90,7 +90,7 @@ def test_a_short_rod_on_unequal_rotors_stands_at_its_reference(sensors):
             flown = fp.simulate_ensemble(vehicle, law, starts, 20.0, plant=plant, times=np.arange(17.0, 20.0, 0.1))
         off.append(np.linalg.norm(np.nanmean(flown.samples.x, axis=(0, 1))))
     assert off[0] < 0.1 * off[1]
-    assert off[1] > 0.1
+    assert off[1] > 0.05  # m: several times what hover trembles by
 
 
 def test_crazyflie_stands_with_its_centre_of_mass_off_by_three_millimetres():

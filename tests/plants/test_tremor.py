@@ -154,6 +154,15 @@ def test_a_law_on_a_path_is_calmed_for_hover_and_stays_on_its_path():
     assert found.reference is law.reference
 
 
+def test_a_law_on_another_computer_stays_on_it():
+    """A plan's board predicts for itself; with the law's own computer, tracked flights stray twice as far."""
+    law = inverted().bind(VEHICLE)
+    changed = replace(law, computer=replace(law.computer, latency=0.0, lead=1.0, models_lag=True))
+    found = calm(changed, Plant(sensors=MOCAP))
+    assert found.calm > 0
+    assert found.computer == changed.computer
+
+
 def test_a_loop_that_does_not_stand_trembles_without_bound():
     restless = inverted(rod_damping=0.01).bind(VEHICLE)
     assert fp.linearise(restless, VEHICLE).spectral_abscissa > 0

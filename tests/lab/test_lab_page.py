@@ -224,12 +224,12 @@ def test_a_flight_goes_on_in_the_laboratory(visit):
 
 def test_the_learned_law_is_flown_poked_and_goes_on(visit):
     """Its network takes longer to compile than any other law: what is compiled here is at hand for the server."""
-    learned = OFFER["first"] | {"law": {"name": "learned", "gains": {}}}
+    learned = OFFER["first"] | {"law": {"name": "learned", "gains": {}}, "duration": 8}
     usual = setting_of(learned)
     fly(usual)
     engine_of(usual)
     fly(setting_of(learned | {"pokes": [{"time": 1.2, "on": "bob", "velocity": [1, 0, 0]}]}))
-    page = visit()
+    page = visit("#" + json.dumps(OFFER["first"] | {"duration": 8}))
     page.locator("select[data-path='law.name']").select_option("learned")
     shown(page)
     assert expect_flight(page).law == "learned"
@@ -239,12 +239,12 @@ def test_the_learned_law_is_flown_poked_and_goes_on(visit):
     page.locator("[data-on=bob]").click()
     shown(page)
     page.evaluate("flypend.pause()")
-    assert expect_flight(page).t[-1] == pytest.approx(7.2)
+    assert expect_flight(page).t[-1] == pytest.approx(9.2)
     able(page)
     slider(page, "plant.lag").fill("100")
     shown(page)
     expect_flight(page)
-    page.evaluate("flypend.seek(7.2)")
+    page.evaluate("flypend.seek(9.2)")
     page.locator(".go").click()
     until(page, "() => flypend.live().tick > 3700")
     assert page.evaluate("flypend.pose(0).y[2]") > 0.99

@@ -123,6 +123,21 @@ def test_the_rod_of_a_light_machine_keeps_hanging(rod):
     assert np.arccos(-states.y[:, 2].max()) < 1.0
 
 
+def test_a_machine_with_slow_rotors_stays_in_its_place():
+    """A guess of 72 % of the inertia; with the attitude loop of quick rotors it flew 98 m off, upside down."""
+    base = fp.vehicle("hehn2011")
+    slow = base.replace(
+        mass=0.165, bob_mass=0.0146, rod_length=0.148, rod_end=None, inertia=(2.58e-4, 2.58e-4, 3.85e-4),
+        rotor_limits=(0.022, 1.12), rotor_lag=0.078, drag_ratio=0.0081,
+        rotor_positions=base.rotor_positions * 0.09 / 0.17,
+    )  # fmt: skip
+    guess = slow.replace(inertia=slow.inertia * 0.72, rotor_lag=0.03)
+    plant = PLANT.replace(sag=0.05, spin_up=1.3, strength=(1.1, 1.0, 1.05, 1.08), wind=None)
+    states = fp.State.trusted(rehearse(guess, slow, plant, duration=10.0, latency=0.008, bias=0.01, seed=4).states)
+    assert np.abs(states.x).max() < 2.0
+    assert states.R[:, 2, 2].min() > 0.8
+
+
 def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):
     """Negative control: without steps and doublets yaw tells nothing of torque and inertia."""
     from flypend.identification import manoeuvre

@@ -9,7 +9,9 @@ import pytest
 
 import flypend as fp
 from flypend.laws import Controller, Law, LawError
+from flypend.laws.learned import policy
 from flypend.laws.own import fingerprint
+from flypend.laws.policy import save
 from flypend.settings.laws import absolute, law_from, law_named, note, relative, table_of
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -54,6 +56,7 @@ def here(tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "path", list(sys.path))
     (tmp_path / "laws").mkdir()
     (tmp_path / "laws" / "mine.py").write_text(TEXT, encoding="utf-8")
+    (tmp_path / "laws" / "text.npz").write_text("no policy", encoding="utf-8")
     return tmp_path
 
 
@@ -93,6 +96,16 @@ def test_gains_and_frame_stand_in_the_table(here):
     assert law_from(law) is law
 
 
+def test_a_policy_is_a_law_of_its_own_name(here):
+    save(policy("hehn2011-hub"), here / "laws" / "mine.npz")
+    law = law_from({"function": "mine.npz", "gains": {"lead": 1.5}}, here / "laws")
+    assert (law.name, law.given["lead"]) == ("mine", 1.5)
+    own, hub = (each.bind(VEHICLE).prepared["network"] for each in (law, law_named("learned")))
+    assert own.size == policy("hehn2011-hub").size != hub.size
+    assert absolute("mine.npz", here / "laws") == str(here / "laws" / "mine.npz")
+    assert table_of("laws/mine.npz") == {"function": "laws/mine.npz"}
+
+
 def test_other_processes_are_sent_a_law_of_a_file(here):
     for name in ("balance", "numeric"):
         law = cloudpickle.loads(cloudpickle.dumps(law_named(f"laws/mine.py:{name}")))
@@ -118,12 +131,14 @@ def test_other_processes_are_sent_a_law_of_a_file(here):
         ("no_such_module:f", "--law: expected a module that can be imported, got 'no_such_module'"),
         ("no-module:f", "--law: expected a module that can be imported, or a file that ends in .py, got 'no-module'"),
         ("invertd", "--law: expected one of printed, .*got 'invertd' (did you mean 'inverted'?)"),
+        ("laws/none.npz", "policy: expected a file written by `flypend learn`, got "),
+        ("laws/text.npz", "policy: expected a file written by `flypend learn`, got "),
         (3, "law: expected the name of a law, or a table, got 3"),
         (
             {"function": "laws/mine.py"},
-            "law.function: expected file.py:function, module:function or a file .onnx, got ",
+            "law.function: expected file.py:function, module:function or a file .onnx or .npz, got ",
         ),
-        ({"function": ["x"]}, "law.function: expected file.py:function, module:function or a file .onnx, got "),
+        ({"function": ["x"]}, "law.function: expected file.py:function, module:function or a file .onnx or .npz, got "),
         ({"function": "laws/mine.py:balance", "gains": 3}, "law.gains: expected a table of gains, got 3"),
         ({"function": "laws/mine.py:balance", "gains": {"lif": 1}}, "law.gains.lif: expected one of lift, mode, got"),
         ({"function": "laws/mine.py:balance", "gains": {"lift": "x"}}, "law.gains.lift: expected a finite number, got"),

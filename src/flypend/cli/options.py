@@ -13,7 +13,7 @@ import click
 from flypend.errors import InputError
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
-LAW_HELP = "a name that flypend laws lists, file.py:function or module:function"
+LAW_HELP = "a name that flypend laws lists, file.py:function, module:function, or a policy (.npz, .onnx)"
 
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")

@@ -28,8 +28,9 @@ DOUBLET_TIME, DOUBLET = 0.12, 0.6  # s of each half, and its moment over the lar
 # Largest tilt of a doublet, and swing that it may give the rod, rad. Otherwise it turns a light machine over, and a rod
 # that swings through the horizontal is lost to a filter that begins with a wrong length.
 TILT, SWING = 0.6, 0.25
-# Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped.
-PLACE, ATTITUDE = 1.6, 12.0
+# Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped. The attitude's is at most a
+# share of 1/lag of the rotors, as of a controller that was tuned to the machine.
+PLACE, ATTITUDE, LAG_SHARE = 1.6, 12.0, 0.6
 ACCELEROMETER = 0.1  # m/s², standard deviation of its noise
 SCALE = 0.93  # of the rotors of a rehearsal
 LONGEST = 600.0  # s, of a rehearsal; a log of more tells no more
@@ -88,6 +89,7 @@ def rehearse(
     asked = [hover] * (2 + max(age for age, _ in segments))
     wind, gust, rows, states = plant.wind, np.zeros(6), [], []
     behind = round(latency / h)
+    attitude = min(ATTITUDE, LAG_SHARE / true.rotor_lag) if true.rotor_lag > 0 else ATTITUDE
     for k in range(int(duration * RATE)):
         signals.poll()
         packed = engine.packed
@@ -100,7 +102,7 @@ def rehearse(
         gyro = s.omega + biases[:3] + noise.omega * rng.normal(size=3)
         force = felt(packed, engine.rotors, gust) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
         speed = seen.x_dot + noise.x_dot * rng.normal(size=3)
-        command = _feedback(k * h, x - where[int(k * h / STEP_TIME)], speed, R, gyro, vehicle)
+        command = _feedback(k * h, x - where[int(k * h / STEP_TIME)], speed, R, gyro, vehicle, attitude)
         rows.append([k * h, *x, *quat_xyzw_from_rotation(R)[[3, 0, 1, 2]], *gyro, *force, *y, *command])
         asked = [command, *asked[:-1]]
         if wind is not None:
@@ -131,15 +133,15 @@ def _specific_force(true: Vehicle) -> Callable[..., Any]:
     return as_numpy(ca.Function("felt", [packed, rotors, gusts], [ca.densify(felt)]))
 
 
-def _feedback(t: float, apart: Any, speed: Any, R: Any, omega: Any, vehicle: Vehicle) -> Any:
-    """Return the rotor forces (n,), N, that hold a place, and the doublets on top."""
+def _feedback(t: float, apart: Any, speed: Any, R: Any, omega: Any, vehicle: Vehicle, attitude: float) -> Any:
+    """Return the rotor forces (n,), N, that hold a place, and the doublets on top; the attitude by `attitude`, 1/s."""
     total = vehicle.mass + vehicle.bob_mass
     force = total * (vehicle.gravity * E3 - PLACE**2 * apart - 2 * PLACE * speed)
     level = unit(force)
     ahead = unit(np.cross(level, [1.0, 0.0, 0.0]))
     wanted = np.column_stack([np.cross(ahead, level), ahead, level])
     error = vee(wanted.T @ R)
-    moment = vehicle.I @ (-(ATTITUDE**2) * error - 1.6 * ATTITUDE * omega)
+    moment = vehicle.I @ (-(attitude**2) * error - 1.6 * attitude * omega)
     low, high = vehicle.rotor_limits
     room = min(vehicle.weight / len(vehicle.rotor_spins) - low, high - vehicle.weight / len(vehicle.rotor_spins))
     added = doublet(t) * room * np.abs(vehicle.mixing()[1:]).sum(axis=1)

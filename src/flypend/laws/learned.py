@@ -5,6 +5,8 @@ Its wrench is one that the rotors can give, so that allocation changes nothing. 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
@@ -16,7 +18,7 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, Vector, norm, smooth_norm
-from flypend.laws.bound import Control
+from flypend.laws.bound import Computer, Control
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.inverted_gains import computer_of
 from flypend.laws.law import Law
@@ -74,9 +76,14 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
 
     return Law(
         name="learned", e3="up", gains=GAINS, given=gains, control=control, prepare=_prepare, reference=followed,
-        computer=computer_of,
+        computer=_computer,
         uses_forces=True,
     )  # fmt: skip
+
+
+def _computer(gains: Mapping[str, Any]) -> Computer:
+    """Return the flight computer settings for these `gains`: the network was trained behind the rotors' lag."""
+    return replace(computer_of(gains), models_lag=True)
 
 
 def _prepare(vehicle: Vehicle, gains: Any) -> dict[str, Any]:

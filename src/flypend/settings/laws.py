@@ -15,6 +15,7 @@ from typing import Any
 
 from flypend.errors import InputError, one_of, only_known
 from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_names
+from flypend.laws.learned import learned, policy
 from flypend.laws.located import LawError, Located, relative_path
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
@@ -35,7 +36,8 @@ OTHERS = {
     "plan": "a plan from the start, tracked with feedback (planning.plan_and_track)",
     "nmpc": "plans, and replans in flight (planning.nmpc)",
 }
-ONNX = ".onnx"
+# Files of a policy, trained elsewhere or by `flypend learn`.
+ONNX, LEARNED = ".onnx", ".npz"
 PLACES = ("function", "keep", "cost")  # entries of a law's table that name a function in a file or module
 PLANNED = ("objective", "target")  # what the law "plan" has beside constraints
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
@@ -85,7 +87,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     only_known(key, value, ("function", "gains", "e3"))
     where, gains = value["function"], value.get("gains", {})
     if not isinstance(where, str) or not _is_place(where):
-        raise InputError(f"{key}.function", "file.py:function, module:function or a file .onnx", repr(where))
+        raise InputError(f"{key}.function", "file.py:function, module:function or a file .onnx or .npz", repr(where))
     if not isinstance(gains, Mapping):
         raise InputError(f"{key}.gains", "a table of gains", repr(gains))
     e3 = one_of(f"{key}.e3", value["e3"], ("up", "down")) if "e3" in value else None
@@ -98,7 +100,8 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     A custom law is `file.py:function`, with the path relative to `folder` (default the current one), or
     `module:function`; modules are also searched for in the current folder. The name must lead to a Law, a Controller,
     a function without arguments that returns one, or a function for `laws.from_function`. `policy.onnx` is a network in
-    an ONNX file, for `laws.trained`. `key` is the field name for error messages.
+    an ONNX file, for `laws.trained`, and `policy.npz` one of `flypend learn`. `key` is the field name for
+    error messages.
 
     Raises InputError if there is no such law, or if it fails to load.
     """
@@ -171,12 +174,12 @@ def relative(value: Any, folder: Path) -> Any:
 
 def _is_place(name: str) -> bool:
     """Whether `name` says where a law is, and is not a law's name."""
-    return ":" in name or name.endswith(ONNX)
+    return ":" in name or name.endswith((ONNX, LEARNED))
 
 
 def _split(name: str) -> tuple[str, str]:
     """Return the file in `name`, "" if there is none, and what follows it."""
-    if name.endswith(ONNX):
+    if name.endswith((ONNX, LEARNED)):
         return name, ""
     file, colon, attribute = name.rpartition(":")
     return (file, f":{attribute}") if colon and file.endswith(".py") else ("", "")
@@ -212,11 +215,15 @@ def table_of(name: str) -> dict[str, Any]:
 
 
 def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:
-    """Return the law `name`, file.py:function, module:function or an ONNX file; messages begin with `key`."""
-    if name.endswith(ONNX):
+    """Return the law `name`, file.py:function, module:function or a policy; messages begin with `key`."""
+    if name.endswith((ONNX, LEARNED)):
         if e3 is not None:
             raise InputError("law.e3", "nothing: a policy flies with e3 up", e3)
-        return trained((folder or Path.cwd()) / name)
+        path = (folder or Path.cwd()) / name
+        if name.endswith(ONNX):
+            return trained(path)
+        policy(str(path))  # what is no policy is told now
+        return replace(learned(policy=str(path)), name=path.stem)
     return _as_law(_attribute(name, folder, key, "a law"), name, key, e3)
 
 

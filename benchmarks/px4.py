@@ -293,7 +293,7 @@ def happen(name: str, flown: Flown) -> str:
     modes = [NAMES.get(mode, str(mode)) if armed else "stopped" for _, _, mode, armed in log]
     then = ", ".join(now for before, now in zip([NAMES[PENDULUM], *modes], modes, strict=False) if now != before)
     spinning = [i for i, (_, forces, *_) in enumerate(log) if forces.any()]
-    stops = "—" if spinning[-1:] == [len(log) - 1] else f"{(spinning[-1] + 1 if spinning else 0) * TICK:.2f}"
+    stops = "—" if log[-1][-1] else f"{(spinning[-1] + 1 if spinning else 0) * TICK:.2f}"  # it is still armed
     x = np.array([state.x for state, forces, *_ in log if forces.any()] or [home])
     aside, lowest = np.hypot(*(x - home)[:, :2].T).max(), x[:, 2].min()
     flies = "—" if left is None else f"{left * TICK:.2f}"

@@ -2,6 +2,8 @@
 
     python -m benchmarks.firmware ../crazyflie-firmware --starts 200
     python -m benchmarks.firmware ../crazyflie-firmware --scenarios
+    python -m benchmarks.firmware ../crazyflie-firmware --blind
+    python -m benchmarks.firmware ../crazyflie-firmware --build
 
 PATH is a folder of the firmware with its submodules; it and gcc are needed. Commander, supervisor, Kalman filter, PID
 controller, power distribution and battery compensation are the firmware's own; the app is that of `flypend export-app`.
@@ -12,11 +14,18 @@ Beside them stand the same starts under Python's flight computer, on the same pl
 
 Scenarios: the law holds the rod inverted, and then something happens. Beside it stands the same flight in which the
 firmware's own PID controller takes over from the app where the law ends; forces are compared from 0.02 to 0.5 s after.
+
+Blind: swing-ups from hanging lose the poses for good, each at another instant, and land.
+
+Build: processor time of the commands of the app's README, from the export to a binary, on one core.
 """
 
 from __future__ import annotations
 
 import argparse
+import resource
+import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -44,16 +53,22 @@ def main() -> None:
     parser.add_argument("path", type=Path)
     parser.add_argument("--airframe", choices=VEHICLES, default="cf2")
     parser.add_argument("--starts", type=int, default=0)
-    parser.add_argument("--scenarios", action="store_true")
+    for name in ("scenarios", "blind", "build"):
+        parser.add_argument(f"--{name}", action="store_true")
     parser.add_argument("--seed", type=int, default=2024)
     parser.add_argument("--plant", default="rotors")
     given = parser.parse_args()
+    if given.build:
+        print("\n".join(built_by_readme(given.path.resolve())))
+        return
     with tempfile.TemporaryDirectory() as place:
         library, vehicle = exported(given.path.resolve(), Path(place) / "app", given.airframe)
         if given.starts:
             for line in table(fly_starts(library, vehicle, given)):
                 print(line, flush=True)
-        if given.scenarios or not given.starts:
+        if given.blind:
+            print("\n".join(blind(library, vehicle)))
+        elif given.scenarios or not given.starts:
             print("\n".join(HEAD))
             for name in SCENARIOS:
                 print(told(name, *compared(name, library, vehicle)), flush=True)
@@ -254,6 +269,59 @@ HEAD = (
     "forces differ by, N |",
     "|---|---|---|---|---|---|---|---|",
 )
+
+
+# Without poses --------------------------------------------------------------------------------------------------------
+
+INSTANTS = np.arange(0.4, 2.5, 0.1)  # s after the law began
+OFF = {"exact": (0.0, 0.0), "0.3 °/s and 0.02 g off": (0.3, 0.02)}  # deg/s, g on each axis: a warm, levelled BMI088
+
+
+def blind(library: Path, vehicle: fp.Vehicle):
+    """Lines of a table: how swing-ups end that lose the poses."""
+    yield "| IMU | landed within 20 s | aside, m, p50 / largest | sideways at the ground, m/s, p50 / largest |"
+    yield "|---|---|---|---|"
+    for name, (gyro, acc) in OFF.items():
+        rows = np.array([_ends_blind(library, vehicle, at, gyro, acc) for at in INSTANTS])
+        cells = (f"{np.median(row):.1f} / {row.max():.1f}" for row in rows.T[1:])
+        yield f"| {name} | {rows[:, 0].sum():.0f} of {len(rows)} | {' | '.join(cells)} |"
+
+
+def _ends_blind(library: Path, vehicle: fp.Vehicle, at: float, gyro: float, acc: float) -> tuple[bool, float, float]:
+    flown = Vehicle(library, vehicle)
+    flown.gyro_off, flown.acc_off = gyro * np.array([1, -1, 1]), acc * np.array([1, -1, 1])
+    flown.lift()
+    assert flown.release(fp.State(x=HOME, y=(0.02, 0.0, -np.sqrt(1 - 0.02**2))))
+    flown.fly(at)
+    lost, flown.sees_pose = flown.ticks, False
+    down = flown.fly(20.0, lambda: flown.state.x[2] < 0.06)
+    away = np.array([state.x - HOME for state, *_ in flown.log[lost:]])
+    return down, float(np.hypot(*away[:, :2].T).max()), float(np.hypot(*flown.state.x_dot[:2]))
+
+
+# To a binary ----------------------------------------------------------------------------------------------------------
+
+
+def built_by_readme(firmware: Path):
+    """Lines of a table: seconds of one core from the export to a binary, for each airframe."""
+    yield "| airframe | export, s | build, s | binary, bytes |"
+    yield "|---|---|---|---|"
+    for airframe, vehicle in VEHICLES.items():
+        with tempfile.TemporaryDirectory() as place:
+            app, base = Path(place, "app"), f"CRAZYFLIE_BASE={firmware}"
+            words = [Path(sys.executable).with_name("flypend"), "export-app", "crazyflie", vehicle, "-o", app]
+            spent = [_spent(words, Path(place))]
+            spent.append(sum(_spent(["make", base, *more], app) for more in ([f"{airframe}_defconfig"], [])))
+            size = (app / "build" / f"{airframe}.bin").stat().st_size
+        yield f"| {airframe} | {spent[0]:.0f} | {spent[1]:.0f} | {size} |"
+
+
+def _spent(words: list, folder: Path) -> float:
+    """Seconds of processor time of a command."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([str(word) for word in words], cwd=folder, check=True, capture_output=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 if __name__ == "__main__":

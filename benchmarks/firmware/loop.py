@@ -114,6 +114,7 @@ class Vehicle:
         self.state = self._before = self.rest
         self.target, self.link, self.sees_bob, self.sees_pose = np.array(home), True, True, True
         self.voltage, self.battery_is_low = 4.0, False
+        self.gyro_off, self.acc_off = np.zeros(3), np.zeros(3)  # deg/s, g
         self.ticks, self.setpoints = 0, False
         self.forces = np.zeros(4)
         self.log: list[tuple] = []  # state, forces, flies of each tick
@@ -160,7 +161,8 @@ class Vehicle:
             self._radio()
         acc = mean_force(before.x_dot, state.x_dot, before.R, state.R, GRAVITY, TICK) / GRAVITY
         world = self.world
-        world.gyro[:], world.acc[:] = np.degrees(state.omega).tolist(), acc.tolist()
+        world.gyro[:] = (np.degrees(state.omega) + self.gyro_off).tolist()
+        world.acc[:] = (acc + self.acc_off).tolist()
         world.voltage, world.battery_is_low = self.voltage, int(self.battery_is_low)
         self.forces = self.firmware.step(world)
         self._before = state

@@ -9,6 +9,7 @@ from cbuild import build, run
 
 import flypend as fp
 from benchmarks import cortex, damaged_memory, export_cost
+from flypend.laws.named import FACTORIES
 
 VEHICLE = fp.vehicle("hehn2011")
 LAWS = {
@@ -73,18 +74,40 @@ def test_cmake_builds_it_and_ctest_passes(exports):
     assert "100% tests passed" in run(["ctest", "--test-dir", "build"], folder)
 
 
+def _called(folder, source, *flags):
+    """What an object calls that it does not hold; with the compiler's own checks of the stack off."""
+    build(folder, (source,), "asked.o", flags=("-O0", "-c", "-fno-stack-protector", *flags))
+    return {line.split()[-1] for line in run(["nm", "-u", "asked.o"], folder).splitlines()}
+
+
+LIBRARY = {"memcpy", "memset", "_GLOBAL_OFFSET_TABLE_"}
+
+
 @pytest.mark.parametrize("precision", ["double", "float"])
 def test_the_only_function_of_the_library_is_the_square_root(exports, precision):
     folder = exports("inverted", precision)
-    build(folder, ("flypend_law.c",), "law.o", flags=("-c", "-fno-stack-protector"))
-    undefined = {line.split()[-1] for line in run(["nm", "-u", "law.o"], folder).splitlines()}
+    called = _called(folder, "flypend_law.c")
     root = "sqrt" if precision == "double" else "sqrtf"
-    assert root in undefined
-    assert undefined <= {root, "memcpy", "memset", "_GLOBAL_OFFSET_TABLE_"}
+    assert root in called
+    assert called <= {root, *LIBRARY}
     source = (folder / "flypend_law.c").read_text()
     loops = re.findall(r"\b(?:for|while|do|goto)\b[^{;]*;[^;]*;", source)
     assert loops
     assert all(re.search(r"[ik] < (?:count|4|FLYPEND_ROTORS|FLYPEND_MEMORY|FLYPEND_WORDS);", loop) for loop in loops)
+
+
+@pytest.mark.parametrize("name", [*FACTORIES, "light", "calm"])
+def test_no_law_calls_more_of_the_library(name, tmp_path):
+    law = fp.laws.inverted().bind(VEHICLE).calmed(0.5) if name == "calm" else LAWS.get(name) or FACTORIES[name]()
+    fp.export_c(law, VEHICLE, tmp_path, precision="float", check=False)
+    assert _called(tmp_path, "flypend_law.c") <= {"sqrtf", *LIBRARY}
+
+
+@pytest.mark.parametrize("sensors", ["mocap", "onboard"])
+def test_nor_does_a_computer_with_an_estimator(sensors, tmp_path):
+    fp.export_c(LAWS["inverted"], VEHICLE, tmp_path, precision="float", sensors=sensors, check=False)
+    called = _called(tmp_path, "flypend_sensors.c")
+    assert {name for name in called if not name.startswith("flypend_")} <= {"sqrtf", *LIBRARY}
 
 
 def test_cppcheck_is_quiet(exports):

@@ -3,6 +3,8 @@
 Against the firmware itself, where it lies beside the project (shared/firmware) or FLYPEND_FIRMWARE names its folder.
 """
 
+import struct
+
 import numpy as np
 import pytest
 from cbuild import run
@@ -10,6 +12,7 @@ from cbuild import run
 import flypend as fp
 from benchmarks.firmware.__main__ import (
     DURATION,
+    SCENARIOS,
     compared,
     difference,
     exported,
@@ -128,15 +131,82 @@ def test_a_parameter_that_the_law_cannot_fly_with_stays_what_it_was(built, name,
         assert firmware.set(f"flypend.{name}", value) == pytest.approx(good), value
 
 
-@pytest.mark.parametrize(("name", "soon"), [("bob lost", 0.11), ("pose lost", 0.21), ("battery low", 0.01)])
-def test_what_the_law_needs_and_loses_ends_in_a_landing_near_by(built, name, soon):
+@pytest.mark.parametrize(
+    ("name", "soon", "down"),
+    [("bob lost", 0.11, (3.0, 6.5)), ("pose lost", 0.21, (2.0, 4.0)), ("battery low", 0.01, (3.0, 6.5))],
+)
+def test_what_the_law_needs_and_loses_ends_in_a_landing_near_by(built, name, soon, down):
     flown, event = happen(name, *built)
     phases = [flown.log[i][2] for i in range(event, len(flown.log))]
     assert phases.index(LANDING) * 1e-3 < soon
     assert phases[-1] == CUT
-    assert 3.0 < stopped(flown, event) < 6.5  # hover for 1 s, then 1.5 m at 0.3 m/s
+    assert down[0] < stopped(flown, event) < down[1]  # hover for 1 s, then 1.5 m at 0.3 m/s, or at 0.8 without poses
     aside, _ = strayed(flown, event)
     assert aside < 0.5  # the rod falls from upright
+
+
+HANGING = fp.State(x=HOME, y=(0.02, 0.0, -np.sqrt(1 - 0.02**2)))
+HALFWAY, CATCHING = 1.0, 1.3  # s after which it turns over, and after which it catches: at 3 and 4 m/s
+
+
+def _in_a_catch(built, at):
+    flown = Vehicle(*built)
+    flown.lift()
+    assert flown.release(HANGING)
+    flown.fly(at)
+    assert flown.flies == LAW
+    assert np.linalg.norm(flown.state.x_dot) > 1
+    return flown
+
+
+def _landed(flown, event):
+    """How far it strayed, its speed sideways where the motors stopped, and that height."""
+    flown.fly(25.0, lambda: flown.flies == CUT or flown.state.x[2] < 0)
+    away = np.array([state.x - HOME for state, *_ in flown.log[event:]])
+    return np.hypot(*away[:, :2].T).max(), np.hypot(*flown.state.x_dot[:2]), flown.state.x[2]
+
+
+@pytest.mark.parametrize("at", [HALFWAY, CATCHING])
+def test_a_catch_that_loses_the_poses_brakes_and_lands_level(built, at):
+    """On the firmware's own estimate it would be 40 to 90 m away, at 9 m/s."""
+    flown = _in_a_catch(built, at)
+    event, flown.sees_pose = flown.ticks, False
+    aside, speed, height = _landed(flown, event)
+    assert flown.flies == CUT
+    assert aside < 2.5
+    assert speed < 0.6  # m/s
+    assert abs(height) < 0.3
+
+
+def test_a_pose_that_is_no_number_spoils_the_firmwares_filter_but_not_the_landing(built):
+    flown = _in_a_catch(built, CATCHING)
+    event = flown.ticks
+    flown.firmware.packet(6, 1, struct.pack("<B7f", 8, np.nan, 0, 0, 0, 0, 0, 1))
+    flown.fly(0.05)
+    assert np.isnan(flown.firmware.log("stateEstimate.x"))
+    assert flown.flies == LANDING
+    aside, speed, height = _landed(flown, event)
+    assert np.isfinite([forces for _, forces, _ in flown.log[event:]]).all()
+    assert (aside < 2.5, speed < 0.6, abs(height) < 0.3) == (True, True, True)
+
+
+@pytest.mark.parametrize("name", ["stop setpoint", "emergency stop", "disarmed"])
+def test_a_stop_in_the_middle_of_a_catch_is_a_stop(built, name):
+    flown = _in_a_catch(built, CATCHING)
+    event = flown.ticks
+    SCENARIOS[name](flown)
+    flown.fly(0.6)
+    assert stopped(flown, event) <= 0.041
+    assert flown.flies == CUT
+
+
+def test_a_setpoint_that_is_no_number_ends_in_a_landing(built):
+    flown = _in_a_catch(built, CATCHING)
+    event, flown.target = flown.ticks, np.array([np.nan, 0.0, 5.0])
+    flown.fly(1.0)
+    assert flown.flies == LANDING
+    assert flown.firmware.log("flypend.why") == 7  # refused
+    assert np.isfinite([forces for _, forces, _ in flown.log[event:]]).all()
 
 
 def test_without_the_host_scripts_filter_settings_velocities_lag_much_further(built, monkeypatch):

@@ -94,10 +94,14 @@ class Vehicle:
 
 
 class Room:
-    """Motion capture at 100 Hz, and the clock; the bob circles. `lost` says when the bob, `dark` when all is unseen."""
+    """Motion capture at 100 Hz, and the clock; the bob circles. `lost` says when the bob, `dark` when all is unseen.
 
-    def __init__(self, host, keys=(), lost=(9e9, 9e9), dark=(9e9, 9e9)):
+    From `stuck` on it repeats the bodies that it saw last, in new frames.
+    """
+
+    def __init__(self, host, keys=(), lost=(9e9, 9e9), dark=(9e9, 9e9), stuck=9e9):
         self.host, self.keys, self.lost, self.dark, self.time, self.said = host, dict(keys), lost, dark, 0.0, []
+        self.stuck = stuck
 
     def bob(self, at):
         return (0.1 + 0.3 * np.cos(at), 0.3 * np.sin(at), 1.0)
@@ -106,8 +110,9 @@ class Room:
         at = PERIOD * int(self.time / PERIOD)
         if self.dark[0] <= at < self.dark[1]:
             return None
-        bob = None if self.lost[0] <= at < self.lost[1] else self.bob(at)
-        return self.host.Frame(500 + at, (0.1, 0.2, 0.3), (0, 0, 0, 1), bob)
+        then = min(at, self.stuck)
+        bob = None if self.lost[0] <= at < self.lost[1] else self.bob(then)
+        return self.host.Frame(500 + at, (0.1 + 1e-6 * then, 0.2, 0.3), (0, 0, 0, 1), bob)
 
     def pause(self, duration):
         self.time += duration
@@ -131,7 +136,7 @@ def _flown(host, keys, height=1.5, vehicle=None, parameters=(), **room):
 def test_it_sends_each_frame_once_with_the_bob_from_the_vehicle(host):
     vehicle, _ = _flown(host, {1.0: " "}, height=None)
     assert len(vehicle.told("pose")) == pytest.approx(100, abs=2)  # looked at a thousand times
-    assert vehicle.told("pose")[5] == (0.1, 0.2, 0.3, 0, 0, 0, 1)
+    assert vehicle.told("pose")[5] == pytest.approx((0.1, 0.2, 0.3, 0, 0, 0, 1), abs=1e-5)
     bobs = vehicle.told("bob")
     assert len(bobs) == len(vehicle.told("pose"))
     rod = np.array([bob[1:] for bob in bobs])
@@ -147,6 +152,13 @@ def test_it_says_when_the_bob_is_unseen_and_sends_none_then(host):
     assert [line for line in room.said if "bob" in line] == ["the bob is NOT SEEN", "the bob is seen again"]
     assert len(vehicle.told("bob")) == pytest.approx(200, abs=3)
     assert any(line.startswith("rod, m: ") for line in room.said)
+
+
+def test_what_motion_capture_repeats_to_the_last_digit_is_not_seen(host):
+    vehicle, room = _flown(host, {3.0: " "}, height=None, stuck=1.0)
+    assert len(vehicle.told("pose")) == pytest.approx(100, abs=2)
+    assert len(vehicle.told("bob")) == pytest.approx(100, abs=2)
+    assert [line for line in room.said if "SEEN" in line] == ["motion capture is NOT SEEN", "the bob is NOT SEEN"]
 
 
 def test_without_motion_capture_it_says_so_and_does_not_arm(host):

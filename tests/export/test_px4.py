@@ -1,6 +1,7 @@
 """The module for PX4 around stand-ins: when it flies, what the motors are told then, and what it costs.
 
-PX4 itself is not at hand. Its messages are generated from their definitions, its platform is a stand-in.
+PX4 itself is not at hand: benchmarks/px4.py flies in it. Here its messages are generated from their definitions, its
+platform is a stand-in.
 """
 
 import re
@@ -11,6 +12,7 @@ from cbuild import STANDINS, run
 from px4 import CPP, World, headers, library
 
 import flypend as fp
+from benchmarks.px4 import parameters
 from flypend.board.program import initial_memory
 from flypend.export import fits, records, vectors
 from flypend.plants.loop import Loop
@@ -281,6 +283,13 @@ def test_parameters_that_cannot_be_flown_with_are_refused(world, name, value):
     world.put("parameter_update", timestamp=world.now)
     world.fly(UP)
     assert not world.can_run()
+
+
+def test_the_airframe_of_the_benchmark_in_px4_is_the_vehicle(world):
+    for name, value in parameters().items():
+        world.parameter(name, value)
+    world.fly(UP, 120)
+    assert world.can_run()
 
 
 def test_a_parameter_does_not_change_in_flight(world):

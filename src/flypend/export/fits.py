@@ -52,8 +52,8 @@ BUDGETS: Mapping[str, Budget] = {
         of="a Crazyflie",
         processor=("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"),
         stack=248,
-        memory=850,
-        code=9_400,
+        memory=914,
+        code=9_724,
         most={"cycles": 100_000, "bytes of stack": 1_000, "bytes of flash": 650_000, "bytes of RAM": 33_000},
     ),
     # App: tests/export/test_px4.py compares with the module beside the law. Cycles: a quarter of a period

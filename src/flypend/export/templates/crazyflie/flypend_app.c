@@ -46,14 +46,17 @@ _Static_assert($least_force >= 0.9999f * THRUST_MIN, "rotor_limits of the vehicl
 #define SETTLE_TICKS M2T(200)
 #define POSE_GAP 0.2f     /* s */
 #define PAUSE_STEPS 1000U /* of the stabilizer loop, 1 ms: hover before landing */
+#define BRAKE_STEPS 2500U /* without poses: until then it brakes, then it keeps level */
 #define GRACE_STEPS 3000U /* by which a landing may be late */
 #define SINK 0.3f         /* m/s */
+#define BLIND_SINK 0.8f   /* m/s without poses, when each second makes the estimate worse */
 #define GROUND 0.05f      /* m: below it a landing ends, and a flight of the law */
 #define MISSED 0.2f       /* m by which a hover may be lower than asked */
 #define ROD_NUMBERS $rod_numbers
 #define POSE_NUMBERS $pose_numbers
 #define POSE_R $pose_attitude
 #define POSE_LOGS 8
+#define DEGREES 57.29578f     /* of a radian, in which the firmware counts angles */
 #define GRAVITY 9.81f          /* m/s^2, in which the firmware's accelerometer counts */
 
 enum { CUT = 0, PID = 1, LAW = 2, LANDING = 3 };
@@ -303,6 +306,29 @@ static void reset_pid(control_t *control, const sensorData_t *sensors, const sta
     controllerPid(control, &null, sensors, state, 0);
 }
 
+static bool is_blind(void)
+{
+    return pose[POSE_NUMBERS - 1] > POSE_GAP;
+}
+
+/* Without poses the firmware's Kalman filter drifts away, the faster the more the rod pulls and the vehicle turns, and one
+ * pose that is not finite spoils it for good. The law's own estimate goes on with what gyroscope and accelerometer feel. */
+static const state_t *known_best(const state_t *state)
+{
+    static state_t own;
+    const float *R = pose + POSE_R;
+    if (!(pose[POSE_NUMBERS - 1] >= 0) || (is_sound(state) && !is_blind())) {
+        return state;
+    }
+    own = *state;
+    memcpy(&own.position.x, pose, 3 * sizeof *pose);
+    memcpy(&own.velocity.x, pose + 3, 3 * sizeof *pose);
+    own.attitude.roll = DEGREES * (atan2f(R[7], R[8]));
+    own.attitude.pitch = DEGREES * (asinf(fmaxf(-1, fminf(1, R[6])))); /* the firmware's has the other sign */
+    own.attitude.yaw = DEGREES * (atan2f(R[3], R[0]));
+    return &own;
+}
+
 static void begin_landing(const state_t *state, stabilizerStep_t step)
 {
     const float down = (state->position.z > 0) ? state->position.z : 0;
@@ -310,7 +336,8 @@ static void begin_landing(const state_t *state, stabilizerStep_t step)
     landing_step = step;
     landing_steps = PAUSE_STEPS + GRACE_STEPS + (stabilizerStep_t)(1000 * down / SINK);
     memset(&landing, 0, sizeof landing);
-    landing.mode.x = landing.mode.y = landing.mode.yaw = modeAbs;
+    landing.mode.x = landing.mode.y = is_blind() ? modeVelocity : modeAbs;
+    landing.mode.yaw = modeAbs;
     landing.mode.z = modeVelocity;
     landing.position.x = state->position.x;
     landing.position.y = state->position.y;
@@ -322,13 +349,14 @@ static void land(control_t *control, const setpoint_t *setpoint, const sensorDat
 {
     const stabilizerStep_t since = step - landing_step;
     on = 0;
-    if (setpoint->mode.x == modeDisable) { /* the supervisor levels out, since the radio is lost */
+    /* Level, if the supervisor levels out since the radio is lost, or if nobody knows the place after it has braked. */
+    if ((setpoint->mode.x == modeDisable) || (is_blind() && (since >= BRAKE_STEPS))) {
         landing.mode.x = landing.mode.y = modeDisable;
         landing.mode.roll = landing.mode.pitch = modeAbs;
     }
-    landing.velocity.z = (since < PAUSE_STEPS) ? 0 : -SINK;
+    landing.velocity.z = (since < PAUSE_STEPS) ? 0 : is_blind() ? -BLIND_SINK : -SINK;
     controllerPid(control, &landing, sensors, state, (since == 0) ? 0 : step);
-    grounded = !is_sound(state) || (state->position.z <= GROUND) || (since > landing_steps);
+    grounded = !(state->position.z > GROUND) || (since > landing_steps);
 }
 
 /* One period of the law; false where it refuses. */
@@ -404,12 +432,12 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
             grounded = true;
         }
         if (why != FLIES) {
-            reset_pid(control, sensors, state);
+            reset_pid(control, sensors, known_best(state));
             if ((on == 0) || (why == NO_POSITION)) {
                 flies = PID;
                 controllerPid(control, setpoint, sensors, state, 0);
             } else {
-                begin_landing(state, step);
+                begin_landing(known_best(state), step);
             }
             on = 0;
         }
@@ -427,7 +455,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     }
     turning = (on != 0) || ((turned_step != 0) && (step - turned_step < PAUSE_STEPS));
     if (flies == LANDING) {
-        land(control, setpoint, sensors, state, step);
+        land(control, setpoint, sensors, known_best(state), step);
     } else if (flies == LAW) {
         control->controlMode = controlModeForce;
         for (int i = 0; i < 4; i++) {

@@ -103,7 +103,7 @@ class Session:
     def __init__(self, cf, bodies, keys, now=time.monotonic, pause=time.sleep, say=print):
         self.cf, self.bodies, self.keys, self.now, self.pause, self.say = cf, bodies, keys, now, pause, say
         self.armed = False
-        self.frame, self.said = None, {}
+        self.frame, self.said, self.seen = None, {}, {}
         self.frame_at = self.bob_at = self.now()
         self.shown_at = self.asked_at = -1e9
 
@@ -160,9 +160,11 @@ class Session:
         """Send what is new of motion capture, and `setpoint` when it is due; return the keys."""
         at, frame = self.now(), self.bodies.read()
         if frame is not None and (self.frame is None or frame.time > self.frame.time):
-            self.frame, self.frame_at = frame, at
-            self.cf.extpos.send_extpose(*frame.position, *frame.quaternion)
-            if frame.bob is not None:
+            self.frame = frame
+            if self.is_new("vehicle", (*frame.position, *frame.quaternion)):
+                self.frame_at = at
+                self.cf.extpos.send_extpose(*frame.position, *frame.quaternion)
+            if frame.bob is not None and self.is_new("bob", tuple(frame.bob)):
                 self.bob_at = at
                 self.cf.appchannel.send_packet(rod_packet(frame))
         self.tell_changes("motion capture", at - self.frame_at > GAP)
@@ -173,6 +175,11 @@ class Session:
         self.show(at)
         self.pause(TURN)
         return self.keys()
+
+    def is_new(self, what, numbers):
+        """Whether a body was seen: some systems repeat what they lost, to the last digit, and noise never does."""
+        repeated, self.seen[what] = numbers == self.seen.get(what), numbers
+        return not repeated
 
     def tell_changes(self, what, lost):
         """Say when something is lost or seen again."""

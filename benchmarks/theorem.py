@@ -33,8 +33,9 @@ def descents(name, runs, seed, machine=None):
     """Print how many wide flights converge under law `name`, and the largest rise of V; `machine` as in `descend`."""
     found = descend(name, runs, seed, machine=machine)
     low, high = wilson(found.converged, found.runs)
+    early = f"{found.ended} end early" + (f", from V(0) of {found.least_ended:.2g} on" if found.ended else "")
     print(
-        f"{name}: {found.converged} of {found.runs} converge (95 %: {low:.4%} to {high:.4%}), {found.ended} end early; "
+        f"{name}: {found.converged} of {found.runs} converge (95 %: {low:.4%} to {high:.4%}), {early}; "
         f"V rises by more than {RISES:g} V(0) in {found.rising}, at most by {found.worst_rise:.2g} V(0)"
     )
 

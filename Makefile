@@ -96,7 +96,7 @@ OLDEST_EXTRAS := --extra studies --extra lab --extra mujoco --extra movies --ext
 lock:
 	$(COMPILE) --all-extras --group dev --output-file requirements.lock
 	$(COMPILE) --all-extras --group bench --constraint requirements.lock --output-file requirements-bench.lock
-	$(COMPILE) --extra rl --group learners --output-file requirements-learners.lock
+	$(COMPILE) --extra rl --extra onnx --group learners --output-file requirements-learners.lock
 	$(COMPILE) $(OLDEST_EXTRAS) --resolution lowest-direct --output-file requirements-lowest.lock
 
 # The lower bounds of pyproject.toml, installed as a wheel and flown, with every extra: a minute and a half.

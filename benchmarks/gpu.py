@@ -6,7 +6,7 @@ bench`, by the method of order 5 with steps of its own in each run, in double pr
 from the same program (CuPy), and JAX from it (`benchmarks.as_jax`), each at the loosest tolerance that gives a median
 error of 1e-6; starts and final states are copied to the GPU and back. The best of some turns. `--gpu` and `--core` are
 prices per hour, from which steps and flights per euro follow. Without a GPU, JAX runs on the processor, which tries the
-benchmark (`--small`).
+benchmark (`--small`): a line says so, and rows say where they ran.
 """
 
 from __future__ import annotations
@@ -277,8 +277,8 @@ def _rate(step: Callable[[], Any], wait: Callable[[], Any], count: int) -> float
 
 def worlds(counts: tuple[int, ...], gpu: float, core: float) -> None:
     """Print steps of the environment per second and per euro, by number of worlds."""
-    cores = len(os.sched_getaffinity(0))
-    print(f"| worlds | flypend, {cores} cores: steps/s | million steps/€ | crazyflow, GPU: steps/s | there per € |")
+    cores, there = len(os.sched_getaffinity(0)), "GPU" if on_gpu() else "processor"
+    print(f"| worlds | flypend, {cores} cores: steps/s | million steps/€ | crazyflow, {there}: steps/s | there per € |")
     print("|---|---|---|---|---|")
     for count in counts:
         row = []
@@ -292,14 +292,34 @@ def worlds(counts: tuple[int, ...], gpu: float, core: float) -> None:
         print(f"| {count:,} | {' | '.join(row)} |", flush=True)
 
 
+def on_gpu() -> bool:
+    """Return whether JAX finds a GPU."""
+    import jax
+
+    return bool(jax.default_backend() == "gpu")
+
+
+def euros(text: str) -> float:
+    """Return euros per hour, above 0."""
+    given = float(text)
+    if not 0 < given < float("inf"):
+        raise argparse.ArgumentTypeError(f"expected euros per hour, above 0, got {text}")
+    return given
+
+
 def main() -> None:
     """Print both tables."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--gpu", type=float, default=GPU, help="euros per hour of the GPU, with the machine about it")
-    parser.add_argument("--core", type=float, default=CORE, help="euros per hour of a core")
+    parser.add_argument("--gpu", type=euros, default=GPU, help="euros per hour of the GPU, with the machine about it")
+    parser.add_argument("--core", type=euros, default=CORE, help="euros per hour of a core")
     parser.add_argument("--small", action="store_true", help="few worlds and flights, to try it")
     asked = parser.parse_args()
-    import jax
+    try:
+        import jax
+    except ModuleNotFoundError:
+        parser.error('needs JAX: pip install "jax[cuda13]", or jax to try it without a GPU')
+    if not on_gpu():
+        print("JAX finds no GPU: its rows and crazyflow's ran on the processor.\n")
 
     where = machine()
     print(

@@ -20,7 +20,7 @@ import numpy as np
 from scipy import stats
 
 import flypend as fp
-from benchmarks.learners import SETTINGS, trained
+from benchmarks.learners import BODY, SETTINGS, trained
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm.stagewise import WIDTH, lanes, stagewise
 from flypend.envs import VectorWorlds
@@ -45,18 +45,28 @@ class Scored(NamedTuple):
     up: Any
 
 
-def scored(task: str, policy: Policy, count: int, seed: int) -> Scored:
-    """Fly the first episodes of `count` worlds by `policy`: (worlds, observations) → actions (count, m)."""
-    worlds = VectorWorlds(task, count)
+def scored(task: str, policy: Policy, count: int, seed: int, **seen_as: Any) -> Scored:
+    """Fly the first episodes of `count` worlds by `policy`: (worlds, observations) → actions (count, m).
+
+    `seen_as` are arguments of the environment that say what is observed.
+    """
+    worlds = VectorWorlds(task, count, **seen_as)
     seen, _ = worlds.reset(seed=seed)
     returns, on, up = np.zeros(count), np.ones(count, dtype=bool), np.zeros(count, dtype=bool)
     while on.any():
         seen, rewards, terminated, truncated, infos = worlds.step(policy(worlds, seen))
         returns[on] += rewards[on]
         for i in np.flatnonzero(on & truncated & ~terminated):
-            up[i] = infos["final_obs"][i, 20] > UP
+            up[i] = height(worlds, infos["final_obs"][i]) > UP
         on &= ~(terminated | truncated)
     return Scored(returns, up)
+
+
+def height(worlds: VectorWorlds, seen: Any) -> float:
+    """Return y₃ of an observation."""
+    if worlds.worlds.env.attitude == "body":
+        return float(seen[6:9] @ seen[12:15])  # of the vertical and the rod
+    return float(seen[20])
 
 
 def random_actions(seed: int = 0) -> Policy:
@@ -169,7 +179,9 @@ def main() -> None:
     parser.add_argument("--wanted", type=float, default=0.9, help="share of the law's score at which training stops")
     parser.add_argument("--minutes", type=float, default=10.0, help="most processor time of a training")
     parser.add_argument("--threads", type=int, default=1, help="of PyTorch")
+    parser.add_argument("--body", action="store_true", help="PPO and SAC see the state in the body frame")
     asked = parser.parse_args()
+    seen_as = BODY if asked.body else {}
     names = asked.policy or ["random", *LAWS, *["plan"] * (TASKS[asked.task]().name in PLANNED)]
     law = scored(asked.task, policy_of("inverted"), RUNS, SEED)
     columns = "score (95 % interval) | of the law's | up at the end | 95 % interval | steps | processor, s | wall, s"
@@ -184,10 +196,12 @@ def main() -> None:
             seeds: list[tuple[float, ...]] = []
             for seed in asked.seed or [0]:
                 done = trained(
-                    name, asked.task, seed, lambda one: scored(asked.task, one, RUNS, CHECKED).returns.mean(),
-                    asked.wanted * law.returns.mean(), 60 * asked.minutes, asked.threads,
+                    name, asked.task, seed,
+                    lambda one: scored(asked.task, one, RUNS, CHECKED, **seen_as).returns.mean(),
+                    asked.wanted * law.returns.mean(), 60 * asked.minutes, asked.threads, seen_as,
                 )  # fmt: skip
-                found, spent = scored(asked.task, done.policy, RUNS, SEED), (done.steps, done.processor, done.wall)
+                found = scored(asked.task, done.policy, RUNS, SEED, **seen_as)
+                spent = done.steps, done.processor, done.wall
                 seeds.append((found.returns.mean(), found.up.sum(), *spent))
                 print(told(f"{name}, seed {seed}", found, law, "| {:,} | {:.0f} | {:.0f} ".format(*spent)), flush=True)
             if len(seeds) > 1:

@@ -232,14 +232,16 @@ def test_the_reward_is_its_formula():
     assert np.allclose(rewards, (1 + s[:, 20]) / 2 * kept - 0.02 * change, atol=1e-6)  # float32
 
 
-def test_the_shaped_swing_up_begins_anywhere_and_pays_for_energy():
+def test_the_shaped_swing_up_begins_at_any_angle_and_pays_for_the_energy_of_upright():
     worlds = gymnasium.make_vec("flypend/SwingUpShaped-v0", 400, vectorization_mode="vector_entry_point").unwrapped
     plain = VectorWorlds("swing_up", 400)
     worlds.reset(seed=3)
-    y = worlds.worlds.states[:, 18:21]
-    # Uniform on the sphere: its mean of 400 is within five deviations of 0, its height within those of 1/√3.
-    assert np.all(abs(y.mean(0)) < 5 / np.sqrt(3 * 400))
-    assert abs(y[:, 2].std() - 1 / np.sqrt(3)) < 0.1
+    y, y_dot = worlds.worlds.states[:, 18:21], worlds.worlds.states[:, 21:24]
+    # Roots of the angles are uniform: each quarter holds 100 of 400, give or take five deviations of 8.7.
+    assert np.all(abs(np.histogram(np.sqrt(np.arccos(y[:, 2]) / np.pi), 4, (0, 1))[0] - 100) < 44)
+    assert np.all(abs(y[:, :2].mean(0)) < 5 * np.sqrt((y[:, :2] ** 2).mean(0) / 400))  # in any direction
+    energies = y[:, 2] + VEHICLE.l * (y_dot**2).sum(1) / (2 * VEHICLE.g)
+    assert 0.9 < energies.max() < 1.0 + 1e-12
     plain.reset(seed=3)
     plain.worlds.arrays["memories"][:] = worlds.worlds.arrays["memories"]
     action = some_actions(1, 400)[0]
@@ -248,7 +250,7 @@ def test_the_shaped_swing_up_begins_anywhere_and_pays_for_energy():
     s = worlds.worlds.states
     energy = s[:, 20] + VEHICLE.l * (s[:, 21:24] ** 2).sum(1) / (2 * VEHICLE.g)
     assert not over.any()
-    assert np.allclose(paid, 0.8 * upright + 0.2 / (1 + ((energy - 1) / 0.5) ** 2), atol=1e-6)  # float32
+    assert np.allclose(paid, upright / (1 + ((energy - 1) / 0.5) ** 2), atol=1e-6)  # float32
 
 
 def test_observations_are_relative_to_the_goal():
@@ -261,6 +263,24 @@ def test_observations_are_relative_to_the_goal():
     assert np.allclose(np.mod(turned, 2 * np.pi), 0.15, atol=1e-5)
     flat = VectorWorlds("balance", 1, attitude="6d")
     assert VectorWorlds("balance", 1).single_observation_space.shape[0] == flat.single_observation_space.shape[0] + 3
+
+
+def test_the_body_frame_shows_the_same_vectors_turned():
+    """Of all vectors of the world frame, those of the goal's way included; what is of the body stays as it is."""
+    arguments = {"task": "track", "num_envs": 16}
+    world, body = VectorWorlds(**arguments), VectorWorlds(**arguments, attitude="body")
+    world.reset(seed=0), body.reset(seed=0)
+    for action in some_actions(3, 16):
+        seen, turned = world.step(action)[0].astype(float), body.step(action)[0]
+    columns = seen[:, 6:15].reshape(16, 3, 3)  # rows are the body's axes
+
+    def to_body(place):
+        return (columns @ seen[:, place : place + 3, None])[..., 0]
+
+    wanted = [to_body(0), to_body(3), columns[:, :, 2], seen[:, 15:18], to_body(18), to_body(21), seen[:, 24:32]]
+    wanted += [to_body(place) for place in (32, 35, 38)]
+    assert np.allclose(turned, np.hstack(wanted), rtol=0, atol=1e-6 * (1 + abs(turned)))  # single precision
+    assert abs(turned[:, :3] - seen[:, :3]).max() > 0.1
 
 
 def test_history_follows_the_present():

@@ -94,14 +94,25 @@ def test_a_network_sees_and_commands_what_it_did_in_its_environment():
     assert np.allclose(np.array(found), wrenches, rtol=1e-5, atol=1e-5)  # observations are of single precision
 
 
-def test_both_forms_of_the_attitude_are_known():
-    """A network on R's first two columns flies as one on all three that ignores the last."""
+def test_all_forms_of_the_attitude_are_known():
+    """A network on R's first two columns flies as one on all three that ignores the last.
+
+    One on the body frame commands what it does in its environment.
+    """
     W, b = regulator()
     W[:, 12:15] = 0
     short = np.delete(W, [12, 13, 14], axis=1)
     long, brief = (fp.simulate(VEHICLE, fp.laws.trained([(one, b)]), START, 0.5).packed for one in (W, short))
     assert np.array_equal(long, brief)
     assert VectorWorlds("balance", 2, observe="state", attitude="6d").reset(seed=0)[0].shape == (2, 21)
+    W, b = np.random.default_rng(0).normal(size=(4, 18)) / 20, np.zeros(4)
+    worlds, symbol = VectorWorlds("balance", 5, observe="state", attitude="body"), ca.SX.sym("s", 24)
+    seen, _ = worlds.reset(seed=3)
+    bound = fp.laws.trained([(W, b)]).bind(VEHICLE)
+    found = np.array(ca.Function("w", [symbol], [bound.upright(ca.SX(0), symbol)])(worlds.worlds.states[:, :24].T))
+    low, high = VEHICLE.rotor_limits
+    wrenches = VEHICLE.mixing() @ (low + (high - low) * (np.clip(W @ seen.T, -1, 1) + 1) / 2)
+    assert np.allclose(found, wrenches, rtol=1e-5, atol=1e-5)  # observations are of single precision
 
 
 def test_a_regulator_in_a_layer_balances_and_follows():

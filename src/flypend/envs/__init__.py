@@ -5,7 +5,8 @@ The physics is that of every other flight: state, rotors and vehicle advance by 
 **Observations** (float32, SI units): position and velocity of the pivot relative to the goal, world frame (3 + 3); R by
 columns (9), or its first two (6); angular velocity in the body frame (3); rod direction and its rate, world frame
 (3 + 3); rotor forces from −1 to 1 within their limits (n); the last action (m); and for "track" where the goal will be
-in 0.1, 0.2 and 0.4 s, relative to where it is (9). A task may show more: `Task.shown`.
+in 0.1, 0.2 and 0.4 s, relative to where it is (9). A task may show more: `Task.shown`. With `attitude="body"` all
+vectors are in the body frame, and the vertical (3) stands for R.
 
 With `sensors` they are what the flight computer's estimator says; see `Environment`.
 

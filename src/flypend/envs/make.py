@@ -14,10 +14,11 @@ from gymnasium.spaces import Box
 from flypend import errors
 from flypend.compile.llvm.worlds import BOUND
 from flypend.envs import task as tasks
-from flypend.envs.problem import Action, Attitude, Environment, Observe
+from flypend.envs.problem import Action, Environment, Observe
 from flypend.envs.randomise import Randomisation
 from flypend.envs.task import Task
 from flypend.errors import InputError
+from flypend.laws.seen import Attitude
 from flypend.model import Vehicle
 from flypend.model.shipped import vehicle as vehicle_named
 from flypend.plants.plant import ROTORS, Sampled

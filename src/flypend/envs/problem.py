@@ -17,7 +17,7 @@ from flypend.envs.sensing import Estimates
 from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
 from flypend.flight.touch import touch_of
-from flypend.laws.seen import moment_action, observe_state, rotor_action, thrust_action
+from flypend.laws.seen import ATTITUDES, Attitude, moment_action, observe_state, rotor_action, thrust_action, to_body
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop, rotor_forces
@@ -28,7 +28,6 @@ from flypend.plants.plant import LONGEST_DELAY, Sampled
 from flypend.plants.sensors import sensors_called
 
 Action = Literal["rotors", "wrench", "rates"]
-Attitude = Literal["matrix", "6d"]
 Observe = Literal["all", "state"]
 MOST_RATE = 12.0  # rad/s, of the action "rates"
 LONGEST = 1e9  # s, of an episode
@@ -52,8 +51,9 @@ class Environment:
         What an action commands, each number in [−1, 1]: forces of the rotors, from the least to the largest; thrust
         from none to the largest and moments, allocated within the limits; or thrust and body rates up to 12 rad/s, by
         the plant's inner loop.
-    attitude : "matrix" or "6d"
-        How the attitude is observed: all columns of R, or the first two.
+    attitude : "matrix", "6d" or "body"
+        How the attitude is observed: all columns of R; the first two; or only the vertical, with all vectors in the
+        body frame, so that a policy need not learn what turning the heading changes.
     observe : "all" or "state"
         What is observed: all that `flypend.envs` lists, or what comes before the rotor forces, which `fp.laws.trained`
         needs to fly the policy as a law.
@@ -83,7 +83,7 @@ class Environment:
 
     def __post_init__(self) -> None:
         errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
-        errors.one_of("attitude", self.attitude, ("matrix", "6d"))
+        errors.one_of("attitude", self.attitude, ATTITUDES.values())
         errors.one_of("observe", self.observe, ("all", "state"))
         self._check_plant()
         errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
@@ -265,7 +265,9 @@ class Parts:
         low, high = env.vehicle.rotor_limits
         here = env.task.goal(t, parts[-1])[0]
         coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
-        seen = observe_state(now.error, 3 if env.attitude == "matrix" else 2)
+        if env.attitude == "body":
+            coming = [to_body(now.error, vector) for vector in coming]
+        seen = observe_state(now.error, env.attitude)
         if env.observe == "all":
             rotors = 2 * (parts[1] - low) / (high - low) - 1
             seen = ca.vertcat(seen, rotors, parts[2], *coming, env.task.shown(now))

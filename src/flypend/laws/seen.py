@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import casadi as ca
 import numpy as np
 
 from flypend.geometry import Numbers, Scalar, Vector
 from flypend.model import State, Vehicle
 
+Attitude = Literal["matrix", "6d", "body"]
+ATTITUDES: dict[int, Attitude] = {24: "matrix", 21: "6d", 18: "body"}  # by the numbers that are seen of a state
 
-def observe_state(state: State, columns: int) -> Numbers:
-    """Return x, ẋ, the first `columns` of R, ω, y and ẏ (15 + 3 columns, 1) of a `state` with e₃ up, in CasADi.
 
-    Position and velocity of the pivot are relative to the goal.
+def observe_state(state: State, attitude: Attitude) -> Numbers:
+    """Return what is seen of a `state` with e₃ up (24, 21 or 18, 1), in CasADi: x, ẋ, attitude, ω, y and ẏ.
+
+    Position and velocity of the pivot are relative to the goal. The attitude is R by columns, or its first two ("6d");
+    or, with "body", the vertical Rᵀe₃, all vectors being in the body frame. What is seen is then the same whatever the
+    heading.
     """
+    if attitude == "body":
+        x, x_dot, y, y_dot = (to_body(state, vector) for vector in (state.x, state.x_dot, state.y, state.y_dot))
+        return ca.vertcat(x, x_dot, state.R[2, :].T, state.omega, y, y_dot)
+    columns = 3 if attitude == "matrix" else 2
     return ca.vertcat(state.x, state.x_dot, ca.vec(state.R[:, :columns]), state.omega, state.y, state.y_dot)
+
+
+def to_body(state: State, vector: Vector) -> Vector:
+    """Return a `vector` (3, 1) of the world frame in the body frame: Rᵀ times it."""
+    return ca.mtimes(state.R.T, vector)
 
 
 def rotor_action(action: Vector, vehicle: Vehicle) -> Vector:

@@ -19,11 +19,9 @@ from flypend.laws.law import Law
 from flypend.laws.network import Network
 from flypend.laws.onnx_file import read_onnx
 from flypend.laws.references import Reference, hover
-from flypend.laws.seen import moment_action, observe_state, rotor_action, thrust_action
+from flypend.laws.seen import ATTITUDES, moment_action, observe_state, rotor_action, thrust_action
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
-
-COLUMNS = {24: 3, 21: 2}  # of the attitude, by the number of observations
 
 GAINS = table(
     (
@@ -47,8 +45,9 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
 
     The network gets what an environment with `observe="state"` shows: position and velocity of the pivot relative to
     the reference, m and m/s, the columns of R (9 numbers; 6 with `attitude="6d"`), the angular velocity in the body
-    frame, rad/s, and the rod's direction and rate, 1/s, in the world frame with e₃ up: 24 or 21 numbers. It returns an
-    action, which is limited to [−1, 1]: a number per rotor, from its least to its largest force, or thrust and moments.
+    frame, rad/s, and the rod's direction and rate, 1/s, in the world frame with e₃ up: 24 or 21 numbers. With
+    `attitude="body"` it gets 18, all in the body frame, with the vertical (3) for the attitude. It returns an action,
+    which is limited to [−1, 1]: a number per rotor, from its least to its largest force, or thrust and moments.
 
     Parameters
     ----------
@@ -71,15 +70,15 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
     from_file = isinstance(network, str | Path)
     layers: Any = network
     known = read_onnx(Path(layers)) if from_file else Network(layers)
-    if known.inputs not in COLUMNS:
-        wanted = 'one of 24 or 21 observations (observe="state" of the environment)'
+    if known.inputs not in ATTITUDES:
+        wanted = 'one of 24, 21 or 18 observations (observe="state" of the environment)'
         raise InputError("network", wanted, f"one of {known.inputs}")
     followed = reference or hover()
 
     def control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
         x_ref = followed(t)
         x, x_dot = state.x - x_ref, state.x_dot - ca.densify(derivatives(x_ref, t, 1)[0])
-        seen = observe_state(State(**(vars(state) | {"x": x, "x_dot": x_dot})), COLUMNS[known.inputs])
+        seen = observe_state(State(**(vars(state) | {"x": x, "x_dot": x_dot})), ATTITUDES[known.inputs])
         action = ca.fmax(ca.fmin(known(seen), 1), -1)
         return Control(wrench=_wrench(action, vehicle, k.action), signals={"position_error": norm(x)})
 

@@ -143,8 +143,8 @@ def test_a_manoeuvre_is_flown_as_it_is_described(at_home, name):
     start, wishes = own["MANOEUVRES"][name]
     plan, run = own["fly"](name)
     assert metrics(run).success
-    # Through a window, below a bar and past waypoints the search ends with a plan that keeps them, not at an optimum.
-    assert plan.status in ("converged", *["feasible"] * (name in ("door", "low", "slalom")))
+    # Past waypoints a thousand iterations end with a plan that keeps them, but not quite at an optimum.
+    assert plan.status == ("feasible" if name == "slalom" else "converged")
     upright = run.y[:, 2].min() > 0
     assert upright == (name not in ("cube", "low"))
     tips = np.abs([run.x, run.x + VEHICLE.reach * run.y])

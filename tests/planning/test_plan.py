@@ -11,7 +11,9 @@ from flypend.planning.constraints import broken
 from flypend.planning.dynamics import LEAST_ROOM, Units
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
-from flypend.planning.search import STATIONARY, together
+from flypend.planning.programs import programs
+from flypend.planning.search import FINAL, STATIONARY, Job, make_guesses, together
+from flypend.planning.solver import DEFAULT, Solver
 from flypend.planning.verdict import plans_of
 from flypend.plants.equations import EquationsEngine
 
@@ -225,6 +227,30 @@ def test_iterations_bring_a_plan_nearer_to_conditions_of_first_order(swing_up):
     assert late.stationarity < 0.1 * early.stationarity
     assert 0 < swing_up.stationarity <= STATIONARY < early.stationarity
     assert early.status == "feasible"  # nothing is called converged that was not solved to the end
+
+
+def test_stationarity_is_no_matter_of_damping():
+    """A step that damping holds back changes hardly anything anywhere: it says nothing of an optimum."""
+    asked = request(HEHN, HANGING, "excursion", (0, 0, 0))
+    found, compiled = together(asked, 8.0, np.inf, 15), programs(asked.rotors, asked.structure, lanes=True)
+    changes = {}
+    for settings in (FINAL, DEFAULT):
+        for damping in (FINAL.plain, 1e5):
+            problem, states, commands = make_guesses([Job(asked, found.style)] * 8, 8.0)
+            states[:], commands[:] = found.states[..., None], found.commands[..., None]
+            solver = Solver(compiled, problem, states, commands, settings)
+            solver.damp(np.full(8, damping))
+            solver.step(slice(0, problem.stages))
+            changes[settings, damping] = solver.change[0]
+    assert changes[FINAL, 1e5] == changes[FINAL, FINAL.plain]
+    assert changes[DEFAULT, 1e5] < 0.5 * changes[DEFAULT, FINAL.plain]
+
+
+def test_a_push_leads_through_a_flat_valley():
+    """Short steps once looked like an optimum of 2.31 m here; the solver goes on."""
+    plan = plan_of(HEHN, fp.State(y=(0, 0, 1), y_dot=(4, 0, 0)), lean=np.pi / 2)
+    assert plan.status == "converged"
+    assert plan.excursion < 2.22
 
 
 @pytest.mark.parametrize(("start", "knowing", "by_chance"), [(12, False, True), (2, True, False)])

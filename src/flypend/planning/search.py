@@ -33,17 +33,18 @@ LOST = Measures(NEVER, NEVER, NEVER, NEVER, NEVER, NEVER, np.full(1, True), NEVE
 MOST_ITERATIONS = 80
 # A search is over when at so small a barrier the best cost has changed by less than this share in so many iterations.
 STEADY, STEADY_FOR, STEADY_BARRIER = 0.01, 4, 3e-5
-# What it found is solved to the end, which takes 8 to 90 iterations: from a little inside the limits, with a smaller
-# barrier, and each error at the end within 1/√3 of its tolerance, so that vectors of errors are within theirs.
+# What it found is solved to the end, which takes 5 to 70 iterations, and through windows some hundreds: from a little
+# inside the limits, with a smaller barrier, and each error at the end within 1/√3 of its tolerance, so that vectors of
+# errors are within theirs.
 FINAL = Settings(
     barrier=1e-5, least_barrier=1e-6, cooling=0.5, long=0.3, missed=0.57, multipliers=True, inside=1e-4, slack=1e-3,
-    margin=(1e-3, 1e-5),
+    margin=(1e-3, 1e-5), state_damping=1.0, worse=3.0, plain=1e-3, credit=0.93,
 )  # fmt: skip
 # In the least time, the end is reached with all that its tolerances and limits allow: less leaves no room to converge.
 FINAL_IN_TIME = replace(FINAL, least_barrier=3e-7, missed=0.98)
 # It has converged when so many times in a row the next step would change the cost by less than this share, barrier
 # included: then IPOPT, begun there, finds less than 1 % of an excursion to improve, and 4 % of an effort.
-STATIONARY, STATIONARY_FOR, MOST_FINAL = 1e-4, 2, 150
+STATIONARY, STATIONARY_FOR, MOST_FINAL = 1e-4, 2, 1000
 SOFT_FIRST, SOFT_GROWTH, SOFT_LAST = 1e-4, 2.0, 10.0
 SAME = 0.01  # share by which costs of guesses differ that lead to the same plan
 CLOSED = 1e-6  # largest sum of all gaps, own units, of a plan that can be flown
@@ -262,16 +263,16 @@ class FinalWatch(Watch):
         return self._times >= STATIONARY_FOR or self._iterations >= self._most or self._stuck
 
     def after(self, solver: Solver | Race, verdict: Verdict, spent: float) -> None:
-        """Look at the lane after an iteration, which took `spent` (s): what counts is the last."""
-        self._kept = None
-        super().after(solver, verdict, spent)
+        """Look at the lane after an iteration, which took `spent` (s): what converges counts, else the best."""
         lane = int(self._on[0])
-        self._best = float(verdict.cost[lane])
         small = verdict.stationarity[lane] <= STATIONARY and verdict.barrier[lane] <= self.settings.least_barrier
-        self._times = self._times + 1 if small and np.isfinite(self._best) else 0
+        stationary = bool(small and np.isfinite(verdict.cost[lane]))
+        self._best = np.inf if stationary else self._best
+        super().after(solver, verdict, spent)
+        self._times = self._times + 1 if stationary else 0
 
     def found(self, solver: Solver | Race) -> Found:
-        """Return the last iterate."""
+        """Return the iterate that converged, or else the best."""
         found = super().found(solver)
         return replace(found, unfinished="") if self._times >= STATIONARY_FOR else found
 

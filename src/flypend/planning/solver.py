@@ -51,6 +51,8 @@ class Settings:
     end_barrier: float = 1e-4  # below this,
     end_growth: float = 1.3  # by this factor per iteration
     multipliers: bool = False  # whether each error has a multiplier instead, so that the weight is the first
+    plain: float = np.inf  # largest damping with which the change that a step predicts is measured; beyond it,
+    credit: float = 0.0  # share of what the merit has fallen by, from step to step, that it may rise again
     relief: float = 1e-4  # barrier down to which a large e costs its logarithm, so that it does not outweigh the end
     inside: float = 0.02  # share of the range of a command by which guesses keep away from its limits
     slack: float = 0.1  # least, at first, of an inequality that need not be kept exactly
@@ -107,7 +109,8 @@ class Measures(NamedTuple):
     `cost` is the merit with the weight of e as it was asked for, `value` excursion and effort with their weights,
     `lack` what inequalities lack, `gap` the sum of all gaps, `end` the largest error there in tolerances, and
     `barrier` is μ. Lanes that are `stuck` cannot be improved any more, whatever the damping. `change` is that of
-    the cost in the linear-quadratic problem of the last step: 0 where the conditions of first order hold.
+    the cost in the linear-quadratic problem of the last step, whose damping would make it small anywhere, and is
+    therefore `Settings.plain` at most: 0 where the conditions of first order hold.
     """
 
     cost: Lanes
@@ -167,6 +170,7 @@ class Solver:
         self._price, self._w = np.ones((2, width)), scratch or Scratch(programs, N, width)
         self.merit, self.lack, self.gap, self.end = (np.full(width, np.inf) for _ in range(4))
         self._wished, self.change = np.zeros(width), np.full(width, np.inf)  # the cost of one's own
+        self._credit = np.zeros(width)
         self._connect()
         self._begin(slice(None))
 
@@ -219,7 +223,7 @@ class Solver:
         self._damping[0, on], self._damping[1, on] = settings.state_damping * settings.damping, settings.damping
         self._shared[0, on] = 0.0
         self._fit(whole, on)
-        self._slack[..., on], self._price[:, on] = settings.slack, 1.0
+        self._slack[..., on], self._price[:, on], self._credit[on] = settings.slack, 1.0, 0.0
         for measured in (self.merit, self.lack, self.gap, self.end):
             measured[on] = np.inf
         # In the other lanes slacks are what they were.
@@ -293,10 +297,18 @@ class Solver:
         self._linearise(first, N)
         self._add_terms(first, N)
         self._ends[False](first + N, 1)
+        damping = self._damping.copy()
+        if np.any(damping[1] > self._set.plain):
+            self.damp(np.minimum(damping[1], self._set.plain))
+            self._back(first, N)
+            c, g, v = w.to_go[first, self._of_shared : self._of_shared + 3]
+            self.change = np.abs(g * g / (2 * c) - v)
+            self.damp(damping[1])
         self._back(first, N)
-        c, g = w.to_go[first, self._of_shared : self._of_shared + 2]
+        c, g, v = w.to_go[first, self._of_shared : self._of_shared + 3]
         self._epsilon[0], w.delta[first] = -g / c, 0.0
-        self.change = np.abs(g * g / (2 * c) - w.to_go[first, self._of_shared + 2])
+        measured = damping[1] <= self._set.plain
+        self.change = np.where(measured, np.abs(g * g / (2 * c) - v), self.change)
         self._ahead(first, N)
         self._along(first, N)
         self.gap = np.abs(w.d[stages]).sum(axis=(0, 1))
@@ -314,14 +326,17 @@ class Solver:
         longest, dual_length = np.fmin(1.0, settings.room / w.shares[stages].max(axis=0))
         length = most = np.fmin(longest, settings.turn / turns)
         found = np.zeros(len(length), dtype=bool)
+        # A step along the ball, which must hold every state, is not straight: the merit may rise before it falls.
+        allowed = self.merit + np.where(self._damping[1] > settings.plain, self._credit, 0.0)
         for factor in (1.0, *settings.shrinks):
             length = np.where(found, length, factor * length)
             self._fly(stages, length)
             gap = (1 - length) * self.gap
             merit, lack, end, wished = self._value(stages, new=True, gap=gap)
-            found |= merit < self.merit
+            found |= merit < allowed
             if found.all():
                 break
+        np.copyto(self._credit, settings.credit * (self._credit + self.merit - merit), where=found)
         pairs = (
             (self.states[after], w.new_states[after]), (self.commands[stages], w.new_commands[stages]),
             (self._shared, self._new_shared), (self._slack[stages], w.new_slack[stages]),
@@ -367,19 +382,20 @@ class Solver:
         cooled = np.maximum(settings.cooling * self._mu[0], settings.least_barrier)
         self._mu[0] = np.where(length >= 0.3, cooled, self._mu[0])
         if settings.multipliers:
-            self._yield()
+            self._yield(length)
         else:
             missed = (self.end > settings.missed) & (self._mu[0] <= settings.end_barrier)
             grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
             self._weight[0] = np.where(missed, grown, self._weight[0])
 
-    def _yield(self) -> None:
+    def _yield(self, length: Lanes) -> None:
         """Let errors at the end come as near to their tolerances as the cost wants them, by a multiplier for each.
 
-        The offset is the multiplier over the weight, which grows where errors are far too large, and falls again.
+        The offset is the multiplier over the weight, which grows where errors are far too large, and falls again. After
+        a step shorter than 1 it changes by as much less, or it would run ahead of the errors.
         """
         settings, size, pushed = self._set, np.abs(self._errors), np.abs(self._offset)
-        pushed = np.maximum(0.0, pushed + ASCENT * (size - settings.missed))
+        pushed = np.maximum(0.0, pushed + ASCENT * length * (size - settings.missed))
         far, near = self.end > FAR_OFF, pushed.max(axis=0) < PUSHED
         factor = np.where(far, settings.end_growth, np.where(near, 1 / settings.end_growth, 1.0))
         before = self._weight[0].copy()

@@ -41,7 +41,7 @@ ROOM = 1.3  # factor of a slope that start or end needs
 NECK = 0.15  # rod lengths: the funnel's half depth beyond the wall's, for what is between two stages
 INSET = 3e-3  # rod lengths, by which the neck is narrower than the opening, likewise
 NEAR = 0.05  # rod lengths, within which a flight passes a waypoint
-NECK_OF_POINT = 0.05  # rod lengths: half depth of its gate
+NECK_OF_POINT = 0.1  # rod lengths: half depth of its gate, which no stage up to 5 m/s on hehn2011 steps over
 LEVEL = 1e-4  # keeps the direction finite in which a body normal to an axis extends most
 
 

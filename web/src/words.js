@@ -13,6 +13,9 @@ export function writeSymbol(parent, name) {
   parent.append(letter, below);
 }
 
+/** How `unit` is written behind a number: a space before it, 1/s² as s⁻². */
+export const unitOf = (unit) => unit && ` ${unit.replace(/^1\/([^\d²³]+)([²³]?)$/, (_, of, power) => `${of}⁻${power || "¹"}`)}`;
+
 const RAISED = Object.fromEntries([..."−0123456789"].map((sign, i) => [sign, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[i]]));
 
 const minus = (text) => text.replace("-", "−");
@@ -25,6 +28,7 @@ export const power = (exponent) => `10${[...minus(String(exponent))].map((sign) 
 
 /** The number whose decimal logarithm is `exponent`, beside a plot with such an axis. */
 export function scientific(exponent) {
+  if (exponent < -300) return "0";
   const [digits, of] = (10 ** exponent).toExponential(1).split("e");
   return `${digits}·${power(Number(of))}`;
 }

@@ -705,7 +705,9 @@ print(found.uptime)
 
 figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
 factors = list(next(iter(found.sweeps.values())))
-shares = [[good / runs for good, runs in counts.values()] for counts in found.sweeps.values()]
+shares = [
+    [good / runs for good, runs in counts.values()] for counts in found.sweeps.values()
+]
 image = axes.imshow(shares, vmin=0, vmax=1, cmap="cividis", aspect="auto")
 axes.set_xticks(range(len(factors)), factors)
 axes.set_yticks(range(len(shares)), found.sweeps)
@@ -762,7 +764,9 @@ costs = []
 for damping in values:
     law = fp.laws.inverted(rod_damping=damping)
     runs = fp.simulate_ensemble(vehicle, law, starts, duration=8)
-    found = {name: getattr(runs, name) for name in ("success", "settling", "excursion", "effort")}
+    found = {
+        name: getattr(runs, name) for name in ("success", "settling", "excursion", "effort")
+    }
     costs.append([each.cost(found, 8.0).mean() for each in (failures, brisk)])
 
 figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")

@@ -13,8 +13,10 @@ export function writeSymbol(parent, name) {
   parent.append(letter, below);
 }
 
-/** How `unit` is written behind a number: a space before it, 1/s² as s⁻². */
-export const unitOf = (unit) => unit && ` ${unit.replace(/^1\/([^\d²³]+)([²³]?)$/, (_, of, power) => `${of}⁻${power || "¹"}`)}`;
+const PER = { "1/s": "s⁻¹", "1/s²": "s⁻²" };
+
+/** How `unit` is written behind a number, with a space before it. */
+export const unitOf = (unit) => unit && ` ${PER[unit] ?? unit}`;
 
 const RAISED = Object.fromEntries([..."−0123456789"].map((sign, i) => [sign, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[i]]));
 

@@ -343,6 +343,28 @@ def test_the_notebook_for_colab_runs(tmp_path, monkeypatch, capsys):
     assert {path.name for path in tmp_path.iterdir()} == {"swing-up.nc", "swing-up.html"}
 
 
+# What a page types or calls, and the extra that it then names.
+NEEDS = {
+    r"flypend (map|sweep|tune)\b|to_xarray|engine=\"scipy\"": "studies", r"flypend lab\b": "lab",
+    r"flypend movie\b": "movies", r"plant[= ]mujoco|plant=\"mujoco\"": "mujoco", r"\.mcap\b": "logs",
+    r"import gymnasium": "rl",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "docs" / "how-to").glob("*.md")), ids=lambda path: path.stem)
+def test_a_how_to_names_the_extra_that_it_needs(path):
+    page = path.read_text(encoding="utf-8")
+    for typed, extra in NEEDS.items():
+        if path.stem != "install" and re.search(typed, page):  # that page lists them all
+            assert re.search(rf"extra `{extra}`", page), (typed, extra)
+
+
+def test_the_readme_is_read_in_three_minutes():
+    """700 words beside what one types."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(re.sub(r"(?m)^    .*$|(?s:^```.*?^```)", "", text).split()) <= 700
+
+
 def test_diagrams_are_those_that_the_command_draws():
     computed = {"lyapunov", "throw-phases", "throw-forces", "certified-set"}  # which take a moment, and a flight
     drawn = set(DIAGRAMS) - computed

@@ -367,10 +367,21 @@ import flypend as fp
 guard = fp.laws.Guard(signal="domain", threshold=1e-12, reason="outside the domain")
 print(guard.reason)
 
-# %% laws.Computer
+# %% laws.Computer | api/lead.png: Force of a rotor after a step of the demand: with a lead it arrives sooner
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
-print(fp.laws.Computer(lead=1.1, latency=0.008, models_lag=True))
+lag, t = fp.vehicle("hehn2011").rotor_lag, np.linspace(0, 0.1, 200)  # s
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+for lead in (1.0, 1.5, 2.5):
+    computer = fp.laws.Computer(lead=lead, latency=0.008)
+    force = 1 - np.exp(-computer.lead * t / lag)  # share of the demand
+    axes.plot(1e3 * t, force, label=f"lead {lead}")
+axes.set(xlabel="time after the step (ms)", ylabel="force over demand")
+axes.legend()
+figure.savefig("lead.png")
 
 # %% laws.Bounds
 import flypend as fp
@@ -684,11 +695,25 @@ found = fp.check(fp.vehicle("hehn2011"), runs=20, margins=False)
 print(found.feasibility.agility)
 print({name: int(runs.success.sum()) for name, runs in found.tasks.items()})
 
-# %% trial, Trial
+# %% trial, Trial | api/trial.png: Share of flights that succeed, by number of the model and its true over believed value
+import matplotlib.pyplot as plt
+
 import flypend as fp
 
 found = fp.trial(fp.vehicle("hehn2011"), runs=4, seed=1)
 print(found.uptime)
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+factors = list(next(iter(found.sweeps.values())))
+shares = [
+    [good / runs for good, runs in counts.values()] for counts in found.sweeps.values()
+]
+image = axes.imshow(shares, vmin=0, vmax=1, cmap="cividis", aspect="auto")
+axes.set_xticks(range(len(factors)), factors)
+axes.set_yticks(range(len(shares)), found.sweeps)
+axes.set_xlabel("true over believed value")
+figure.colorbar(image, label="share that succeeds")
+figure.savefig("trial.png")
 
 # %% study, Study | map.png: What a study of random starts shows: success, settling time and excursion over the sphere of the rod
 import flypend as fp
@@ -725,10 +750,30 @@ axes.plot(runs, [entry["best"] for entry in found.history], marker="o")
 axes.set(xlabel="runs flown", ylabel="cost of the best gains so far")
 figure.savefig("tuned.png")
 
-# %% Objective
+# %% Objective | api/objective.png: Two objectives over a gain: failures alone, and failures, settling time and excursion
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend as fp
 
-print(fp.Objective(failure=1.0, settling=0.5, excursion=0.2))
+vehicle, starts = fp.vehicle("hehn2011"), fp.random_starts(16, seed=1)
+failures = fp.Objective(failure=1.0, settling=0.0, excursion=0.0)
+brisk = fp.Objective(failure=1.0, settling=0.5, excursion=0.2)
+values = np.linspace(0.2, 1.2, 6)
+costs = []
+for damping in values:
+    law = fp.laws.inverted(rod_damping=damping)
+    runs = fp.simulate_ensemble(vehicle, law, starts, duration=8)
+    found = {
+        name: getattr(runs, name) for name in ("success", "settling", "excursion", "effort")
+    }
+    costs.append([each.cost(found, 8.0).mean() for each in (failures, brisk)])
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(values, costs, marker="o", label=["failures", "failures, settling, excursion"])
+axes.set(xlabel="gain rod_damping", ylabel="mean cost")
+axes.legend()
+figure.savefig("objective.png")
 
 # %% identify, Identified | api/identified.png: Numbers of the vehicle, found over true, with their bands
 import matplotlib.pyplot as plt
@@ -821,11 +866,31 @@ import flypend.envs
 
 print(flypend.envs.environment("balance", action="rates").action)
 
-# %% envs.Randomisation
+# %% envs.Randomisation | api/randomisation.png: Climb rate of thirty worlds under one action: it fans out with mass and thrust
+import gymnasium
+import matplotlib.pyplot as plt
+import numpy as np
+
 import flypend.envs
 
-spread = flypend.envs.Randomisation(mass=(0.9, 1.1), delay=(0.0, 0.02))  # ratio, s
-print(spread.mass, spread.delay)
+spread = flypend.envs.Randomisation(mass=(0.9, 1.1), thrust=(0.9, 1.1))  # ratios
+worlds = gymnasium.make_vec(
+    "flypend/Balance-v0",
+    30,
+    vectorization_mode="vector_entry_point",
+    action="rates",
+    randomise=spread,
+)
+worlds.reset(seed=1)
+action, rates = np.zeros(worlds.action_space.shape), []
+for _ in range(30):
+    worlds.step(action)
+    rates.append(worlds.unwrapped.worlds.states[:, 5])
+
+figure, axes = plt.subplots(figsize=(6, 3), layout="constrained")
+axes.plot(np.arange(1, 31) / 100, np.array(rates) - rates[0], linewidth=1)
+axes.set(xlabel="t (s)", ylabel="change of the climb rate (m/s)")
+figure.savefig("randomisation.png")
 
 # %% envs.World | env-balance.svg: The rod is kept up and brought home
 import gymnasium

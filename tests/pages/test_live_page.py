@@ -148,6 +148,20 @@ def test_the_lyapunov_function_of_other_gains_is_plotted(visit):
     assert said.startswith("Lyapunov function V over time, 10⁻")
 
 
+def test_the_lyapunov_function_is_not_held_at_the_end_of_its_axis(visit):
+    """It falls by more than the eight decades that are drawn: the curve leaves the plot, the number goes on."""
+    law, start = fp.laws.almost_global(), fp.State(y=(0.5, 0, -np.sqrt(0.75)))
+    page = visit(fp.simulate(fp.vehicle("hehn2011"), law, start, 9.0, plant="ideal"))
+    told = []
+    for t in (0.0, 6.0, 9.0):
+        page.evaluate("t => flypend.seek(t)", t)
+        until(page, "t => flypend.time() === t", t)
+        page.evaluate("() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
+        digits, exponent = page.locator(".plot", has_text="Lyapunov").locator("output").inner_text().split("·10")
+        told.append(float(f"{digits}e{exponent.translate(str.maketrans('⁻⁰¹²³⁴⁵⁶⁷⁸⁹', '-0123456789'))}"))
+    assert told[2] < 0.1 * told[1] < 1e-9 * told[0]
+
+
 DRAWN = "() => performance.getEntriesByName('flypend drawn').length === 1"
 LOOP = "() => { let x = 1; for (let i = 0; i < 5e7; i++) x = Math.imul(x, 1664525) + 1013904223 | 0; return x; }"
 

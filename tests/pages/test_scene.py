@@ -1,6 +1,7 @@
 """What the scene shows besides the flight: floor, pole, mounts, and where a rod cannot start."""
 
 import json
+import re
 import time
 from io import BytesIO
 from urllib.parse import quote
@@ -77,6 +78,24 @@ def test_the_pole_tells_the_height_of_the_machine(visit):
     zero = marks["0 m"]
     assert zero["y"] + zero["height"] / 2 - top == pytest.approx(place[1], abs=60)
     assert zero["y"] > marks["0.5 m"]["y"]
+
+
+def test_a_height_stands_beside_the_pole_away_from_the_machine(visit):
+    """To the left of a pole that is left of the machine: the word then hides none of it."""
+    page, sides = visit(hovering()), set()
+    for drag in (0, 250, 250, 250):
+        page.mouse.move(450, 250)
+        page.mouse.down()
+        page.mouse.move(450 + drag, 250, steps=3)
+        page.mouse.up()
+        page.wait_for_timeout(800)
+        machine, picture = page.evaluate("flypend.screen(0)")["pivot"][0], page.locator(".picture").bounding_box()["x"]
+        for mark in page.locator(".height:visible").all():
+            pole, box = float(re.search(r"[\d.]+", mark.evaluate("one => one.style.transform"))[0]), mark.bounding_box()
+            before = box["x"] + box["width"] - picture < pole
+            assert before == (70 < pole < machine)  # 70 pixels: at the edge it stands where there is room
+            sides.add(before)
+    assert sides == {True, False}
 
 
 def test_heights_are_told_apart_and_not_over_the_sphere_of_directions(visit):

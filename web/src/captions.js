@@ -89,7 +89,7 @@ export class Captions {
   #heights(marks, bottom) {
     this.pole = [marks, bottom];
     const { right, up } = this.taken ?? { right: 0, up: 0 };
-    marks = marks.filter(({ at: [across, down] }) => across > right || down < bottom - up);
+    marks = marks.filter(({ at: [across, down], before }) => across - before > right || down < bottom - up);
     while (this.marks.length < marks.length) {
       const mark = document.createElement("span");
       mark.className = "height";
@@ -99,9 +99,9 @@ export class Captions {
     this.marks.forEach((mark, i) => {
       if (mark.hidden !== i >= marks.length) mark.hidden = i >= marks.length;
       if (mark.hidden) return;
-      const { height, at: [left, top] } = marks[i];
+      const { height, at: [left, top], before } = marks[i];
       write(mark, `${+height.toFixed(2)} m`.replace("-", "−"));
-      move(mark, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`);
+      move(mark, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)${before ? " translateX(-100%) translateX(-1.2rem)" : ""}`); // away from the machine
     });
   }
 }

@@ -8,7 +8,8 @@ import { large, power, reading, scientific, tick } from "./words.js";
 const LEFT = 46, RIGHT = 12, TOP = 8, BOTTOM = 20; // margins; all sizes are pixels of a usual screen, see drawing.js
 const APART = 92; // pixels between two marks of a curve
 const HALF = 9; // pixels from the middle of a word up and down, within which it hides a curve
-const FAINT = 1e-8; // of the largest value: a logarithmic axis goes no further down
+const FAINT = 1e-8; // of the largest value: a logarithmic axis goes no further down, and curves leave it there
+const TINY = Number.MIN_VALUE; // in place of zero, which has no logarithm
 const SPIKE = 10, KEPT = 4; // a peak of more than ten times the usual is cut off at four times that
 
 /**
@@ -279,11 +280,10 @@ function usually(lines) {
 /** Lines and range of a logarithmic plot, as exponents of ten: whole decades, of which the last reaches `least`. */
 function decades({ lines, least }) {
   const largest = lines.reduce((most, { values }) => values.reduce((size, value) => (value > size ? value : size), most), least);
-  const faint = FAINT * largest, floor = (value) => Math.log10(value > faint ? value : faint);
-  const raised = lines.map((line) => ({ ...line, values: line.values.map(floor) }));
+  const raised = lines.map((line) => ({ ...line, values: line.values.map((value) => Math.log10(Math.max(value, TINY))) }));
   const lowest = raised.reduce((low, { values }) => values.reduce((size, value) => Math.min(size, value), low), Math.log10(largest));
-  const high = Math.ceil(Math.log10(largest));
-  return { lines: raised, range: [Math.min(Math.floor(lowest), high - 1), high] };
+  const high = Math.ceil(Math.log10(largest)), faint = Math.log10(FAINT * largest);
+  return { lines: raised, range: [Math.min(Math.floor(Math.max(lowest, faint)), high - 1), high] };
 }
 
 function ticks(low, high, count, finest = 0) {

@@ -13,6 +13,11 @@ export function writeSymbol(parent, name) {
   parent.append(letter, below);
 }
 
+const PER = { "1/s": "s⁻¹", "1/s²": "s⁻²" };
+
+/** How `unit` is written behind a number, with a space before it. */
+export const unitOf = (unit) => unit && ` ${PER[unit] ?? unit}`;
+
 const RAISED = Object.fromEntries([..."−0123456789"].map((sign, i) => [sign, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[i]]));
 
 const minus = (text) => text.replace("-", "−");
@@ -25,6 +30,7 @@ export const power = (exponent) => `10${[...minus(String(exponent))].map((sign) 
 
 /** The number whose decimal logarithm is `exponent`, beside a plot with such an axis. */
 export function scientific(exponent) {
+  if (exponent < -300) return "0";
   const [digits, of] = (10 ** exponent).toExponential(1).split("e");
   return `${digits}·${power(Number(of))}`;
 }

@@ -56,6 +56,7 @@ export class Handle {
     if (!this.held) this.y = flyer.pose.y;
     this.pivot = flyer.pose.x;
     move(this.root, `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`);
+    this.root.classList.toggle("deep", 2 * top > viewer.stage.height);
   }
 
   /** Draw the spring of a `pull` from the bob to the hand, with its force; null: none. */

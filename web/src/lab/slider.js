@@ -1,6 +1,6 @@
 // One slider with its words, its value and a place for what the server has against it.
 
-import { tick } from "../words.js";
+import { tick, unitOf, writeSymbol } from "../words.js";
 
 const STEPS = 400;
 
@@ -33,7 +33,8 @@ export class Slider {
   show(facts) {
     if (this.held) return;
     this.facts = { ...facts };
-    this.words.textContent = facts.words;
+    this.words.replaceChildren();
+    writeSymbol(this.words, facts.words);
     this.input.value = Math.round(STEPS * this.#share(facts.value));
     const [least, most] = facts.allowed ?? [facts.low, facts.high];
     this.input.style.setProperty("--least", `${100 * this.#share(least)}%`);
@@ -45,7 +46,7 @@ export class Slider {
   bound() {
     const { low, high, allowed, unit, words } = this.facts;
     if (!allowed || (allowed[0] <= low && allowed[1] >= high)) return "";
-    return `With the other gains as they are, ${words} may be ${tick(+allowed[0].toPrecision(3))} to ${tick(+allowed[1].toPrecision(3))}${unit ? ` ${unit}` : ""}`;
+    return `With the other gains as they are, ${words} may be ${tick(+allowed[0].toPrecision(3))} to ${tick(+allowed[1].toPrecision(3))}${unitOf(unit)}`;
   }
 
   /** Where on the slider a value is, from 0 to 1. */
@@ -63,7 +64,7 @@ export class Slider {
   #write(value) {
     const { unit } = this.facts;
     this.input.style.setProperty("--done", `${100 * this.#share(value)}%`);
-    const words = `${tick(+value.toPrecision(3))}${unit ? ` ${unit}` : ""}`;
+    const words = `${tick(+value.toPrecision(3))}${unitOf(unit)}`;
     this.output.textContent = words;
     this.input.setAttribute("aria-valuetext", words);
   }

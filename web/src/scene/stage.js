@@ -3,6 +3,7 @@
 import { Euler, PerspectiveCamera, PCFShadowMap, PMREMGenerator, Scene, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 
+import { lettering } from "../drawing.js";
 import { calm } from "../motion.js";
 import { norm, roundUp } from "../numbers.js";
 import { Barred } from "./barred.js";
@@ -18,6 +19,7 @@ const LEAST = 0.03; // of its distance: a machine that is further away is drawn 
 const ROOM = 0.55, BLURRED = 0.04; // strength of the light that comes from a room, and how far it is blurred, rad
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 const WORDS = { above: 46, below: 36 }; // CSS pixels of the picture with words of their own
+const HEIGHT = 70; // CSS pixels that a height beside the pole takes
 const STEEP = 0.9; // sine of the camera's elevation from which on a pole is a point
 
 export const LAYOUTS = ["overlay", "beside"];
@@ -128,7 +130,7 @@ export class Stage {
   }
 
   resize(width, height, ratio) {
-    Object.assign(this, { width, height, ratio });
+    Object.assign(this, { width, height, ratio, larger: lettering() });
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
   }
@@ -158,7 +160,7 @@ export class Stage {
       this.#select(main, width, height);
       const above = this.camera.position.z - this.world.ground;
       this.spacing = roundUp(Math.max(seen.distance, above) / 9);
-      this.world.surround(pivot, seen, this.spacing, 2.4 * this.ratio);
+      this.world.surround(pivot, seen, this.spacing, 2.4 * this.ratio * this.larger);
       const bottom = this.height - top - height;
       renderer.setViewport(left, bottom, width, height);
       renderer.setScissor(left, bottom, width, height);
@@ -189,7 +191,7 @@ export class Stage {
     this.flyers.forEach((flyer, i) => {
       flyer.visible = i === main;
       if (this.ghosts[i]) this.ghosts[i].visible = !beside;
-      (flyer.visible ? flyer : this.ghosts[i])?.draw(width, height, this.factor);
+      (flyer.visible ? flyer : this.ghosts[i])?.draw(width / this.larger, height / this.larger, this.factor);
     });
   }
 
@@ -205,12 +207,16 @@ export class Stage {
     return project(point, this.views[0]);
   }
 
-  /** Heights over the start that the pole marks near the first machine, m, and their CSS pixels; none side by side or from above. */
+  /**
+   * Heights over the start that the pole marks near the first machine, m, their CSS pixels, and how many are free
+   * `before` them: 0 where the machine is to the left of the pole, so that no word hides it; none side by side or from above.
+   */
   marks() {
     const [view] = this.views;
     if (!view || this.layout === "beside" || Math.abs(view.back[2]) > STEEP) return [];
-    const [left, right] = [view.left, view.left + view.width];
+    const [left, right] = [view.left, view.left + view.width], [machine] = this.screen(0).pivot, size = HEIGHT * this.larger;
     return this.pole.marks(this.flyers[0].pose.x[2]).map(({ height, place }) => ({ height, at: project(place, view) }))
+      .map(({ height, at }) => ({ height, at, before: machine > at[0] && at[0] - left > size ? size : 0 }))
       .filter(({ at: [across, down] }) => across > left && across < right && down > WORDS.above && down < view.height - WORDS.below);
   }
 }

@@ -7,7 +7,7 @@ import pytest
 import flypend as fp
 from flypend import geometry as geo
 from flypend.board.believed import Believed
-from flypend.board.command import usable_lead
+from flypend.board.command import OUTSIDE, usable_lead
 from flypend.board.observer import RECORD, observer
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
@@ -49,7 +49,9 @@ def log(monkeypatch):
     class Spy(sampled.SteppedBoard):
         def command(self, t, packed):
             command = super().command(t, packed)
-            for column, value in zip((seen.predicted, seen.rotors, seen.forces), self.predicted, strict=True):
+            state, rotors, outside = self.predicted
+            found = (state, rotors, outside[OUTSIDE.place("forces")])
+            for column, value in zip((seen.predicted, seen.rotors, seen.forces), found, strict=True):
                 column.append(value)
             seen.commands.append(command)
             return command

@@ -9,17 +9,28 @@ import casadi as ca
 import numpy as np
 
 from flypend.board.believed import Believed
+from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, apply
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
 from flypend.model.dynamics import gyroscopic_moment
-from flypend.model.state import SIZE
+from flypend.model.state import SIZE, E3Direction
 from flypend.plants.actuation import rotor_forces
 from flypend.plants.lag import largest_lead
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
 
+# What the board has found of the world beyond its model, and hands to law and prediction.
+OUTSIDE = Record(
+    "outside",
+    "What is found beyond the model.",
+    (
+        Field("forces", 6, "external forces on vehicle and bob, world, e3 up, N"),
+        Field("scale", 0, "true over modelled thrust, less 1, as far as the forces have it"),
+        Field("pull", 0, "nominal over true length of the rod, less 1"),
+    ),
+)
 # (t, state (24, 1), forces (6, 1), reference, gains by name, vehicle) → thrust and moment (4, 1), e₃ up, symbolic.
 Steering = Callable[[Any, Any, Any, Any, dict[str, Any], Any], Any]
 
@@ -60,21 +71,56 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     -------
     Function
         Inputs: time of the measurement and how much later the command acts, s; for then, state (24,), e₃ up, modelled
-        rotor forces (n,), N, and external forces (6,), N; reference, gains and params. For the interface "wrench", a
+        rotor forces (n,), N, and `OUTSIDE` (8,); reference, gains and params. For the interface "wrench", a
         command is the rotor forces (n,), N, with lead; for "rates", thrust and body rates (4,), which the onboard
         proportional rate loop turns into the law's moment.
     """
     t, horizon = ca.SX.sym("t"), ca.SX.sym("h")
     packed, p = ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
-    rotors, forces = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", 6)
+    rotors, outside = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", OUTSIDE.length)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
-    wrench = steer(t, packed, forces, path, gains, believed.vehicle)
+    left, length = found(packed, rotors, outside, believed.vehicle.l)
+    forces = ca.SX.sym("left", 6)  # held constant while rates are derived: what scales the thrust turns with it
+    vehicle = _Measured(believed.vehicle, length) if loop.symbolic.uses_forces else believed.vehicle
+    wrench = steer(t, packed, forces, path, gains, vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
-    wrench = ca.substitute(wrench, t, t + horizon)
+    wrench = ca.substitute(wrench, ca.vertcat(t, forces), ca.vertcat(t + horizon, left))
+    wrench = rescale(wrench, outside)
     command = to_command(loop, believed, wrench, packed, rotors)
-    inputs = [t, horizon, packed, rotors, forces, path, p, believed.symbols]
+    inputs = [t, horizon, packed, rotors, outside, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
+
+
+def found(packed: Numbers, rotors: Numbers, outside: Numbers, length: Any) -> tuple[Numbers, Scalar]:
+    """Return external forces (6,), N, without what scales the thrust, and the rod's `length`, m, as found.
+
+    A weak rotor, or a heavier vehicle, acts along the thrust axis and turns with it. As a force that stays where it is,
+    it would make the loop of the thrust axis weaker by as much, since the law would turn against it.
+    """
+    told = OUTSIDE.split(outside)
+    scaled = told["scale"] * ca.sum1(rotors) * State.symbolic(packed).z
+    forces = told["forces"] - ca.vertcat(scaled, np.zeros(3))
+    return forces, length / (1 + told["pull"])
+
+
+def rescale(wrench: Numbers, outside: Numbers) -> Numbers:
+    """Return the `wrench` (4,) to ask of the model's rotors for that of the law."""
+    return ca.vertcat(wrench[0] / (1 + OUTSIDE.split(outside)["scale"]), wrench[1:])
+
+
+class _Measured:
+    """A `vehicle` with another length of the rod, m, as found in flight."""
+
+    def __init__(self, vehicle: Any, length: Scalar) -> None:
+        self._vehicle, self.l = vehicle, length
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._vehicle, name)
+
+    def in_frame(self, e3: E3Direction) -> _Measured:
+        """As `Vehicle.in_frame`."""
+        return _Measured(self._vehicle.in_frame(e3), self.l)
 
 
 def finish(loop: Loop, believed: Believed) -> ca.Function:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import casadi as ca
 
 from flypend.board.believed import Believed
+from flypend.board.command import OUTSIDE
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, Vector, tangent_part
 from flypend.model import State
@@ -68,13 +69,13 @@ class Differences:
             y_dot=tangent_part(y, y_dot),
         ).packed()
         after = RECORD.join({"state": state, "since_position": since_x, "since_rod": since_y})
-        outputs = [ca.densify(v) for v in (after, state, ca.SX(6, 1))]
+        outputs = [ca.densify(v) for v in (after, state, ca.SX(OUTSIDE.length, 1))]
         return ca.Function("correct", [memory, readings, self._params], outputs)
 
     def carry(self) -> ca.Function:
         """Return (memory, outside, commands by age, params) → memory a control period later."""
         memory, commands = ca.SX.sym("memory", RECORD.length), ca.SX.sym("u", 0)
-        outside = ca.SX.sym("outside", 6)
+        outside = ca.SX.sym("outside", OUTSIDE.length)
         since = memory[SIZE:]
         after = ca.vertcat(memory[:SIZE], ca.if_else(since >= 0, since + self._period, since))
         return ca.Function("spread", [memory, outside, commands, self._params], [after])

@@ -10,7 +10,9 @@ With the force φ of the vehicle on its rotors' axes (world frame), u = φ/(M l)
 
     δċ = δv,   δv̇ = δθ × φ/(M+m),   δθ̇ = R δω,   η̇ = σ,   σ̇ = ((y·u − |w|²) 1 + w wᵀ) η + Bᵀ (u × δθ).
 
-Where no attitude is measured, three more numbers follow, δβ of the gyroscope's bias, with δθ̇ = R (δω − δβ), and with an
+The rod's length is found as well: the pull on a rod is φ/(M l), and with δλ of the ratio λ of the nominal to the true
+length, σ̇ = … − Bᵀ u δλ. What pulls is known best: thrust and attitude are. Last, where no attitude is measured, three
+more numbers follow, δβ of the gyroscope's bias, with δθ̇ = R (δω − δβ), and with an
 accelerometer δα of its bias. It is taken for a force M R δα + m y (y·R δα) on the vehicle, so that
 
     δv̇ = … − (M R δα + m y (y·R δα))/(M+m),   σ̇ = … + Bᵀ R δα/l.
@@ -35,8 +37,13 @@ from flypend.plants.noise import Noise
 
 CENTRE, VELOCITY, TURN, ROD, SWING = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 11), slice(11, 13)
 ERRORS = 13
-BIAS = slice(13, 16)  # of the gyroscope, where no attitude is measured
-FELT_BIAS = slice(16, 19)  # of the accelerometer, where no attitude is measured
+PULL = slice(13, 14)  # nominal over true length of the rod, less 1
+BIAS = slice(14, 17)  # of the gyroscope, where no attitude is measured
+FELT_BIAS = slice(17, 20)  # of the accelerometer, where no attitude is measured
+
+# Prior standard deviation of the pull, what it walks, 1/√s, and the most that is believed: rods 15 % off are two
+# standard deviations away, and a first estimate takes a second. A rod does not change; the walk forgets a bad start.
+PULL_PRIOR, PULL_WALK, MOST_PULL = 0.08, 3e-3, 0.3
 
 # Prior standard deviation of the gyroscope's bias, rad/s, and its random walk, rad/s/√s. A larger bias takes a few
 # seconds more. With a wider prior, a wrong rod length, of which nothing here knows, is taken for a bias after a
@@ -124,7 +131,7 @@ def update(
     leave out: the partial update of Schmidt and Kalman. With all of it they would be claimed to be known from readings
     that have not corrected them.
     """
-    biases = slice(ERRORS, P.shape[0])
+    biases = slice(PULL.stop, P.shape[0])
     error, after = ca.SX(P.shape[0], 1), []
     for readings, rejected in zip(streams, ca.vertsplit(rejections), strict=True):
         gate, far, arrived = rejected < PATIENCE - 0.5, ca.SX(0), ca.SX(0)
@@ -135,7 +142,7 @@ def update(
             far = ca.fmax(far, off)
             gain = (fresh - gate * off) * seen / expected
             error, learnt = error + gain * left, gain @ seen.T
-            if P.shape[0] > ERRORS:
+            if P.shape[0] > PULL.stop:
                 error[biases] -= (1 - calm) * gain[biases] * left
                 learnt[biases, biases] *= calm * (2 - calm)
             P = unpack(pack(P - learnt))
@@ -188,6 +195,9 @@ def propagate(
         Q += h * density * G @ G.T
     Q[TURN, TURN] += h * densities.turning * ca.SX.eye(3)
     if size > ERRORS:
+        F[SWING, PULL] = -h * B.T @ u
+        Q[PULL, PULL] = h * PULL_WALK**2
+    if size > PULL.stop:
         F[TURN, BIAS] = -h * s.R
         Q[TURN, TURN] += h * ASKEW**2 * dot(s.omega, s.omega) * ca.SX.eye(3)
         Q[BIAS, BIAS] += h * BIAS_WALK**2 * ca.SX.eye(3)

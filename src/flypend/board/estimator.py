@@ -16,6 +16,7 @@ import numpy as np
 
 from flypend.board import error_state, felt
 from flypend.board.believed import Believed
+from flypend.board.command import OUTSIDE
 from flypend.board.error_state import Densities
 from flypend.board.expected import GATED, Expected
 from flypend.board.history import REACH, History, finds_latency
@@ -44,6 +45,9 @@ BIAS_BANDWIDTH = 0.5
 # Prior standard deviation of how much older poses are than told, s, and how it walks, s/√s: cameras do not change. A
 # swing-up tells 20 ms within a tenth of a second all the same; a wider prior takes noise of slow turns for a latency.
 LATE, LATE_WALK = 0.002, 1e-4
+
+# Thrust, in weights, at which half of a force along it is taken for a scale of it.
+LEAST_THRUST = 0.3
 
 
 class Filter:
@@ -77,7 +81,8 @@ class Filter:
             Field("late", 0, "how much older poses are than told, s"),
             Field("late_doubt", 0, "variance of that, s^2"),
         ]
-        past, errors, what = self.history.record, error_state.ERRORS, "centre of mass, velocity, attitude, rod and rate"
+        past, errors = self.history.record, error_state.PULL.stop
+        what = "centre of mass, velocity, attitude, rod and rate, pull on the rod"
         if self.sensors.attitude is None:
             errors = error_state.FELT_BIAS.stop if self.feels else error_state.BIAS.stop
             what = f"{what}, and the biases of the IMU"
@@ -88,6 +93,7 @@ class Filter:
             Field("force", 3, "force on the whole that lasts, beyond the modelled thrust, world, N"),
             Field("bandwidth", 0, "at which corrections are taken for forces, 1/s"),
             Field("bias", 3, "of the gyroscope, rad/s"),
+            Field("pull", 0, "nominal over true length of the rod, less 1"),
             Field("rejections", len(self.gated), "of late by each stream of poses and angles, readings"),
             Field("difference", 3, "of the forces that last, F_b/m - F_v/M, across the rod, world, m/s^2"),
             *sensed * self.feels,
@@ -104,6 +110,7 @@ class Filter:
         vehicle, s = self._believed.vehicle, State.symbolic(packed)
         b = error_state.any_tangent(s.y)
         P = error_state.first_covariance(self.sensors.start, s, error_state.frame(b, s.y), vehicle)
+        P = ca.diagcat(P, error_state.PULL_PRIOR**2)
         if self.sensors.attitude is None:
             P = ca.diagcat(P, error_state.BIAS_PRIOR**2 * ca.SX.eye(3))
             if self.feels:
@@ -112,7 +119,7 @@ class Filter:
         memory = self.record.join({
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
             "bandwidth": UNSEEN_BANDWIDTH if self.sensors.attitude is None else FIRST_BANDWIDTH,
-            "bias": np.zeros(3), "rejections": np.zeros(len(self.gated)),
+            "bias": np.zeros(3), "pull": 0, "rejections": np.zeros(len(self.gated)),
             "felt": felt.begin(vehicle), "late": 0, "late_doubt": LATE**2,
             "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.pack(P),
             "past": self.history.begin(rows, weight),
@@ -122,7 +129,7 @@ class Filter:
     # Correction ---------------------------------------------------------------------------------------------------
 
     def correct(self) -> ca.Function:
-        """Return (memory, readings, params) → memory, state (24,), external forces on vehicle and bob (6,), e₃ up."""
+        """Return (memory, readings, params) → memory, state (24,), e₃ up, and what is found, `command.OUTSIDE`."""
         memory = ca.SX.sym("memory", self.record.length)
         readings = ca.SX.sym("readings", readings_record(self.sensors).length)
         parts, vehicle = self.record.split(memory), self._believed.vehicle
@@ -163,11 +170,15 @@ class Filter:
             given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
             parts["felt"] = felt.correct(parts["felt"], *given)
             outside = outside + ca.vertcat(self._felt(parts, s.R), np.zeros(3))
+            scale = _scale(outside[:3], thrust, s.z, vehicle)
+        most = error_state.MOST_PULL
+        pull = ca.fmin(ca.fmax(parts["pull"] + error[error_state.PULL], -most), most)
         parts |= {
-            "state": s.packed(), "frame": b, "force": force, "difference": difference, "bias": bias,
+            "state": s.packed(), "frame": b, "force": force, "difference": difference, "bias": bias, "pull": pull,
             "rejections": rejections, "turned": ca.vec((turn @ known).T), "covariance": error_state.pack(P),
         }  # fmt: skip
-        outputs = ca.cse([ca.densify(v) for v in (self.record.join(parts), s.packed(), outside)])
+        found = {"forces": outside, "scale": scale if self.feels else 0, "pull": pull}
+        outputs = ca.cse([ca.densify(v) for v in (self.record.join(parts), s.packed(), OUTSIDE.join(found))])
         return ca.Function("correct", [memory, readings, self._believed.symbols], outputs)
 
     def _settle(self, covariance: Numbers) -> Scalar:
@@ -211,18 +222,34 @@ class Filter:
         segments = segments_of(self._loop.sampled)
         width = 4 if self._loop.sampled.interface == "rates" else self._believed.rotors
         size = self._believed.rotors if self._finds else width * (1 + max(segment.age for segment in segments))
-        memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", 6)
+        memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", OUTSIDE.length)
         given = ca.MX.sym("given", size)
         params = ca.MX.sym("params", self._believed.symbols.numel())
+        forces = OUTSIDE.split(outside)["forces"]
+        pulled = self._pulled()(memory, forces, params)
         state, rotors = (memory[self.record.place(name)] for name in ("state", "rotors"))
         if self._finds:
-            state, rotors = self._moved()(state, rotors, given, outside, params), given
+            state, rotors = self._moved()(state, rotors, given, pulled, params), given
         else:
             twin = Twin(self._loop, self._believed, params, forces=True, name="carried")
-            state, rotors = twin.advance(state, rotors, ca.vertsplit(given, width), segments, outside)
-        rest = self._spread()(memory, outside, state, params)
+            state, rotors = twin.advance(state, rotors, ca.vertsplit(given, width), segments, pulled)
+        rest = self._spread()(memory, forces, state, params)
         after = ca.vertcat(state, rotors, rest)
         return ca.Function("carry", [memory, outside, given, params], [after])
+
+    def _pulled(self) -> ca.Function:
+        """Return (memory, outside (6,), params) → forces (6,), N, under which a nominal rod moves as the true one.
+
+        Of the pull on a rod of another length, they add what the model lacks, as a pair that leaves the whole alone.
+        """
+        memory, outside = ca.SX.sym("memory", self.record.length), ca.SX.sym("outside", 6)
+        parts, vehicle = self.record.split(memory), self._believed.vehicle
+        M, m, s = vehicle.M, vehicle.m, State.symbolic(parts["state"])
+        on_vehicle = ca.sum1(parts["rotors"]) * s.z + outside[:3]
+        more = parts["pull"] * tangent_part(s.y, outside[3:] / m - on_vehicle / M)
+        on_bob = m * M / (M + m) * more
+        pulled = outside + ca.vertcat(-on_bob, on_bob)
+        return ca.Function("pulled", [memory, outside, self._believed.symbols], [ca.cse(ca.densify(pulled))])
 
     def _moved(self) -> ca.Function:
         """Return (state, rotors (n,) at the beginning and at the end, outside, params) → state a period later.
@@ -289,6 +316,15 @@ def _departure(force: Vector, vehicle: Vehicle) -> Scalar:
     """Return the squared departure, (m/s²)², of the specific force from that of hover, for the vehicle's `force`, N."""
     departure = force / (vehicle.M + vehicle.m) - vehicle.g * E3
     return dot(departure, departure)
+
+
+def _scale(force: Vector, thrust: Scalar, z: Vector, vehicle: Vehicle) -> Scalar:
+    """Return the scale of the `thrust` (N) along `z` that an external `force` (3,), N, on the vehicle amounts to.
+
+    Hardly any where the thrust is below LEAST_THRUST, where a force is not told from a scale.
+    """
+    scale = dot(force, z) * thrust / (thrust**2 + (LEAST_THRUST * vehicle.weight) ** 2)
+    return ca.fmin(ca.fmax(scale, -felt.MOST_SCALE), felt.MOST_SCALE)
 
 
 def _lasting(

@@ -17,7 +17,7 @@ import numpy as np
 
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
-from flypend.board.command import command_width, idle_command, law_command, steering, usable_lead
+from flypend.board.command import OUTSIDE, command_width, idle_command, law_command, steering, usable_lead
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, segments_of
@@ -238,32 +238,33 @@ def _in_transit(loop: Loop) -> float:
 
 
 def predicting(made: Parts) -> ca.Function:
-    """Return (memory, measurement, params) → kept memory, forces (6,), state (24,), rotors (n,), and horizon (s).
+    """Return (memory, measurement, params) → kept memory, outside (8,), state (24,), rotors (n,), and horizon (s).
 
     State and rotors are those after the horizon, when the next command is taken to act.
 
-    With a `Filter` there is one more input, the forces (6,) that it estimates, in place of the observer.
+    With a `Filter` there is one more input, what it finds (8,), in place of the observer; see `command.OUTSIDE`.
     """
     loop, believed, finding = made.loop, made.believed, made.finding
     memory, measurement, params = made.symbols
     before, commands = made.own.split(memory), made.commands(memory)
     rotors = thrusts = before["rotors"]
-    state, forces, horizon = measurement[1:], ca.MX(ca.DM.zeros(6)), ca.MX(loop.law.computer.latency)
-    given = [ca.MX.sym("forces", 6)] if filters(loop.sampled) else []
+    state, horizon = measurement[1:], ca.MX(loop.law.computer.latency)
+    found = OUTSIDE.split(ca.MX(ca.DM.zeros(OUTSIDE.length)))
+    given = [ca.MX.sym("outside", OUTSIDE.length)] if filters(loop.sampled) else []
     if given and loop.law.computer.observer > 0:
-        forces = given[0]
+        found = OUTSIDE.split(given[0])
     kept = {}
     if finding is not None:
         kept["delay"], horizon, wrenches = finding.find()(before["delay"], state[15:18], rotors, commands[0], params)
         thrusts = wrenches[0, 2]
     if made.observes:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
-        kept["observer"], forces = observe(state, thrusts, before["observer"], params)
+        kept["observer"], found["forces"] = observe(state, thrusts, before["observer"], params)
     if finding is not None:
-        state = finding.carry()(state, horizon, wrenches, forces, params)
+        state = finding.carry()(state, horizon, wrenches, found["forces"], params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
-    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _predictor(loop), forces)
-    outputs = [made.kept.join(kept), forces, state, rotors, horizon]
+    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _predictor(loop), found["forces"])
+    outputs = [made.kept.join(kept), OUTSIDE.join(found), state, rotors, horizon]
     return ca.Function("predict", [memory, measurement, params, *given], outputs)
 
 
@@ -272,19 +273,19 @@ def _twin(loop: Loop, believed: Believed, params: Numbers) -> Twin:
 
 
 def remembering(made: Parts) -> ca.Function:
-    """Return (memory, kept memory, measurement, forces, command, params) → memory."""
+    """Return (memory, kept memory, measurement, outside (8,), command, params) → memory."""
     loop, believed = made.loop, made.believed
     memory, measurement, params = made.symbols
-    kept, forces = ca.MX.sym("kept", made.kept.length), ca.MX.sym("forces", 6)
+    kept, outside = ca.MX.sym("kept", made.kept.length), ca.MX.sym("outside", OUTSIDE.length)
     command = ca.MX.sym("command", command_width(loop))
     rotors, under_way = memory[made.own.place("rotors")], [command, *made.commands(memory)]
     if loop.sampled.interface == "rates":  # the rate loop's rotor commands depend on the rotation
         twin = _twin(loop, believed, params)
-        _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), forces)
+        _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), OUTSIDE.split(outside)["forces"])
     else:
         rotors = _advance_rotors(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[:-1])
-    return ca.Function("remember", [memory, kept, measurement, forces, command, params], [after])
+    return ca.Function("remember", [memory, kept, measurement, outside, command, params], [after])
 
 
 def trimming(made: Parts) -> ca.Function:
@@ -298,13 +299,13 @@ def trimming(made: Parts) -> ca.Function:
 
 
 def carrying(made: Parts) -> ca.Function:
-    """Return (corrected, outside (6,), command, memory before and after, params) → estimate a period later.
+    """Return (corrected, outside (8,), command, memory before and after, params) → estimate a period later.
 
     Both memories are those without the estimate.
     """
     estimator, params = made.estimator, made.symbols[2]
     assert estimator is not None
-    corrected, outside = ca.MX.sym("corrected", estimator.record.length), ca.MX.sym("outside", 6)
+    corrected, outside = ca.MX.sym("corrected", estimator.record.length), ca.MX.sym("outside", OUTSIDE.length)
     command = ca.MX.sym("command", command_width(made.loop))
     before, after = (ca.MX.sym(name, made.own.length) for name in ("before", "after"))
     carry = estimator.carry()

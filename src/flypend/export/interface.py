@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.board.believed import Believed
-from flypend.board.command import finish, lead_rotors
+from flypend.board.command import OUTSIDE, finish, found, lead_rotors, rescale
 from flypend.board.program import advance_unmeasured, board, initial_memory, parts
 from flypend.compile.c99 import reads
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
@@ -307,14 +307,29 @@ def _command(
     """As `board.command.law_command`, as calls of the functions that the bare law has, along a path of the pivot."""
     t, horizon = ca.MX.sym("t"), ca.MX.sym("horizon")
     state, rotors = ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
-    forces, path = ca.MX.sym("forces", FORCES), ca.MX.sym("path", records.PATH.length)
+    outside, path = ca.MX.sym("outside", OUTSIDE.length), ca.MX.sym("path", records.PATH.length)
     gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", believed.symbols.numel())
     reference = ca.MX(ca.DM.zeros(records.REFERENCE.length))
+    forces, flown = _found(believed)(state, rotors, outside, params)
     if follows:
-        reference = carry(_shift()(path, horizon), forces, params)
-    wrench = steering(state, forces, reference, gains, params)
+        reference = carry(_shift()(path, horizon), forces, flown)
+    wrench = _rescale()(steering(state, forces, reference, gains, flown), outside)
     command = finish(loop, believed)(wrench, state, rotors, params)
-    return ca.Function("command", [t, horizon, state, rotors, forces, path, gains, params], [command])
+    return ca.Function("command", [t, horizon, state, rotors, outside, path, gains, params], [command])
+
+
+def _found(believed: Believed) -> ca.Function:
+    """(state, rotors, outside, params) → external forces without what scales the thrust, and params as found."""
+    state, rotors = ca.SX.sym("state", SIZE), ca.SX.sym("rotors", believed.rotors)
+    outside, params = ca.SX.sym("outside", OUTSIDE.length), believed.symbols
+    forces, length = found(state, rotors, outside, believed.vehicle.l)
+    flown = ca.substitute(params, believed.vehicle.l, length)
+    return ca.Function("found", [state, rotors, outside, params], [forces, flown])
+
+
+def _rescale() -> ca.Function:
+    wrench, outside = ca.SX.sym("wrench", 4), ca.SX.sym("outside", OUTSIDE.length)
+    return ca.Function("rescale", [wrench, outside], [rescale(wrench, outside)])
 
 
 def _shift() -> ca.Function:

@@ -150,7 +150,8 @@ def test_a_share_of_the_gain_leaves_the_covariance_of_that_gain(calm):
     root, row, noise = rng.standard_normal((size, size)), np.zeros(size), 0.5
     row[:ERRORS] = rng.standard_normal(ERRORS)
     P = root @ root.T
-    share = np.where(np.arange(size) < error_state.PULL.stop, 1.0, calm)
+    share = np.where(np.arange(size) < ERRORS, 1.0, calm)
+    share[error_state.PULL] = 1 - calm
     gain = share * (P @ row) / (row @ P @ row + noise)
     reading = error_state.Reading(ca.SX(2.0), ca.SX(ca.DM(row[:ERRORS])).T, noise, ca.SX(1))
     error, after, _ = error_state.update(ca.SX(ca.DM(P)), [[reading]], ca.SX(0), calm)

@@ -127,11 +127,16 @@ def update(
     A number further from what is expected than GATE standard deviations is left out, unless its stream has had PATIENCE
     more such readings of late than others: then it is the estimate that is wrong.
 
-    Biases take the share `calm` of their gain, and their covariance falls by 2 calm − calm² of what a whole gain would
+    Biases take the share `calm` of their gain, the pull on the rod what that leaves: in hover an offset of the rod's
+    markers looks like a pull. With shares s, the covariance falls by s_i + s_j − s_i s_j of what whole gains would
     leave out: the partial update of Schmidt and Kalman. With all of it they would be claimed to be known from readings
     that have not corrected them.
     """
-    biases = slice(PULL.stop, P.shape[0])
+    share = ca.SX.ones(P.shape[0], 1)
+    share[ERRORS:] = calm
+    if P.shape[0] > ERRORS:
+        share[PULL] = 1 - calm
+    apart = 1 - (1 - share) @ (1 - share).T
     error, after = ca.SX(P.shape[0], 1), []
     for readings, rejected in zip(streams, ca.vertsplit(rejections), strict=True):
         gate, far, arrived = rejected < PATIENCE - 0.5, ca.SX(0), ca.SX(0)
@@ -141,10 +146,7 @@ def update(
             off, arrived = fresh * (left**2 > GATE**2 * expected), fresh
             far = ca.fmax(far, off)
             gain = (fresh - gate * off) * seen / expected
-            error, learnt = error + gain * left, gain @ seen.T
-            if P.shape[0] > PULL.stop:
-                error[biases] -= (1 - calm) * gain[biases] * left
-                learnt[biases, biases] *= calm * (2 - calm)
+            error, learnt = error + share * gain * left, apart * (gain @ seen.T)
             P = unpack(pack(P - learnt))
         after.append(ca.fmin(ca.fmax(rejected + arrived * (2 * far - 1), 0), 2 * PATIENCE))
     return error, P, ca.vertcat(*after)

@@ -29,7 +29,7 @@ from flypend.plants.loop import Loop
 
 NONE = np.zeros(0)
 
-# (t (s), state (24,), rotor forces (n,), external forces (6,)) → command, all for when it acts, as predicted, e₃ up.
+# (t (s), state (24,), rotor forces (n,), `command.OUTSIDE` (8,)) → command, all for when it acts, as predicted, e₃ up.
 Steer = Callable[[float, Any, Any, Any], Any]
 
 
@@ -52,7 +52,7 @@ class SteppedBoard:
     """The board of `loop`, stage by stage, with initial rotor forces `rotors` (n,), N.
 
     A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up. `predicted` holds the state (24,),
-    rotor forces (n,) and external forces (6,) that the last command was computed for, `estimated` the state (24,) that
+    rotor forces (n,) and `OUTSIDE` (8,) that the last command was computed for, `estimated` the state (24,) that
     the sensors told, and `filtered` the memory of the estimator with which they told it.
 
     What commands is `law`, that of the loop, unless there is a `steer` in its place: a program of any kind around which

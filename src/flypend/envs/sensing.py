@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.board.believed import Believed
-from flypend.board.command import command_width, idle_command
+from flypend.board.command import OUTSIDE, command_width, idle_command
 from flypend.board.estimator import Filter
 from flypend.compile.program import lower
 from flypend.compile.record import Field, Record
@@ -31,7 +31,6 @@ from flypend.plants.sensing import (
     start_draws,
 )
 
-FORCES = 6
 # The actions are the law: the filter only asks for the limit of external forces that comes with one.
 ACTIONS = Controller(name="actions", function=lambda t, state: Wrench(0.0, np.zeros(3)))
 
@@ -61,7 +60,7 @@ class Estimates:
             "What a world with sensors remembers.",
             (
                 Field.of(self._filter.record),
-                Field("outside", FORCES, "estimated external forces on vehicle and bob, N"),
+                Field.of(OUTSIDE),
                 *[commands] * bool(self._under_way),
                 Field.of(memory_record(plant.sensors, 1 / plant.rate)),
             ),
@@ -85,7 +84,7 @@ class Estimates:
         commands = ca.vertcat(*[idle_command(self._loop, rotors)] * self._under_way)
         sensors = first_memory(self._plant.sensors, 1 / self._plant.rate, state, draws)
         memory = self.record.join(
-            {"estimate": filtered, "outside": ca.SX.zeros(FORCES), "commands": commands, "sensors": sensors}
+            {"estimate": filtered, "outside": ca.SX.zeros(OUTSIDE.length), "commands": commands, "sensors": sensors}
         )
         return ca.Function("first_estimate", [begin, draws], [ca.densify(memory)])
 

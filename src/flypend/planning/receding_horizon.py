@@ -232,7 +232,7 @@ class Pilot(Boards):
         self.plans: list[Plan] = []
         self.spent: list[float] = []
 
-    def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
+    def planned(self, t: float, state: Array, rotors: Array, outside: Array) -> Array | None:
         """See `Boards`."""
         self._error.update(state, rotors)
         here, outside = self._relative(t, state), in_weights(self._error.forces, self._where(t)[6:], self._vehicle)

@@ -80,10 +80,10 @@ class Boards(ABC):
         return found
 
     @abstractmethod
-    def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
+    def planned(self, t: float, state: Array, rotors: Array, outside: Array) -> Array | None:
         """Return the command (n,), N, that acts at `t` (s); None if the law flies.
 
-        `state` (24,), `rotors` (n,) and `forces` (6,) from outside, N, are those predicted for then.
+        `state` (24,), `rotors` (n,), N, and `outside` (8,), `board.command.OUTSIDE`, are those predicted for then.
         """
 
     def _steer(self, *predicted: Any) -> Array:
@@ -91,12 +91,12 @@ class Boards(ABC):
         found: Array = self._for_law.ask(*self._measured)
         return found
 
-    def _or_law(self, t: float, state: Array, rotors: Array, forces: Array) -> Array:
+    def _or_law(self, t: float, state: Array, rotors: Array, outside: Array) -> Array:
         if self._given is not None:
             return self._given
         shown = state.copy()
         shown[:3] += self.off
-        found: Array = self._for_law.law(t, shown, rotors, forces)
+        found: Array = self._for_law.law(t, shown, rotors, outside)
         return found
 
 
@@ -185,7 +185,7 @@ class Tracker(Boards):
         self._follower, self._far = Follower(feedback, vehicle), FAR_PIVOT * Units.of(vehicle).length
         self.following = True
 
-    def planned(self, t: float, state: Array, rotors: Array, forces: Array) -> Array | None:
+    def planned(self, t: float, state: Array, rotors: Array, outside: Array) -> Array | None:
         """See `Boards`; None once the state is far from the plan."""
         if not self.following:
             return None

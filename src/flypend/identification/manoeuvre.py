@@ -28,9 +28,10 @@ DOUBLET_TIME, DOUBLET = 0.12, 0.6  # s of each half, and its moment over the lar
 # Largest tilt of a doublet, and swing that it may give the rod, rad. Otherwise it turns a light machine over, and a rod
 # that swings through the horizontal is lost to a filter that begins with a wrong length.
 TILT, SWING = 0.6, 0.25
-# Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped. The attitude's is at most a
-# share of 1/lag of the rotors, as of a controller that was tuned to the machine.
-PLACE, ATTITUDE, LAG_SHARE = 1.6, 12.0, 0.6
+# Feedback of the flight: natural frequencies of place and attitude, 1/s; both well damped. Through a lag of more than
+# MOST_LAG (s) of the rotors that of the attitude would be unstable, and it is LAG_SHARE/lag. Slower than it must be, it
+# swings a short rod.
+PLACE, ATTITUDE, MOST_LAG, LAG_SHARE = 1.6, 12.0, 0.075, 0.6
 ACCELEROMETER = 0.1  # m/s², standard deviation of its noise
 SCALE = 0.93  # of the rotors of a rehearsal
 LONGEST = 600.0  # s, of a rehearsal; a log of more tells no more
@@ -89,7 +90,7 @@ def rehearse(
     asked = [hover] * (2 + max(age for age, _ in segments))
     wind, gust, rows, states = plant.wind, np.zeros(6), [], []
     behind = round(latency / h)
-    attitude = min(ATTITUDE, LAG_SHARE / true.rotor_lag) if true.rotor_lag > 0 else ATTITUDE
+    attitude = LAG_SHARE / true.rotor_lag if true.rotor_lag > MOST_LAG else ATTITUDE
     for k in range(int(duration * RATE)):
         signals.poll()
         packed = engine.packed

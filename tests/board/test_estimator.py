@@ -435,6 +435,26 @@ def test_errors_are_as_large_as_it_claims_in_many_flights(name):
     assert (1 - SHORT[name]) * ERRORS < median < 1.1 * ERRORS, median
 
 
+def test_a_nominal_rod_is_pulled_as_one_of_another_length():
+    """By a pair of forces, so that nothing else moves; against the motion of a vehicle with that rod."""
+    pull, filtering = 0.15, Filter(Loop(VEHICLE, LAW, Plant(sensors=SUITES["mocap"])), Believed.numbers(VEHICLE))
+    state, rotors, outside = some_state(6)[0], np.array([1.0, 1.5, 0.7, 1.1]), 0.1 * np.arange(6.0)
+    memory = np.zeros(filtering.record.length)
+    for name, value in (("state", state), ("rotors", rotors), ("pull", pull)):
+        memory[filtering.record.place(name)] = value
+    forces = np.asarray(filtering._pulled()(memory, outside, [])).ravel()
+    np.testing.assert_allclose(forces[:3] + forces[3:], outside[:3] + outside[3:], atol=1e-12)
+    s, wrench = fp.State.from_packed(state), fp.Wrench(rotors.sum(), np.zeros(3))
+    swung = [
+        disturbed_motion(s, wrench, vehicle, "up", Disturbance(given[:3], given[3:])).y_ddot
+        for vehicle, given in (
+            (VEHICLE, forces),
+            (VEHICLE.replace(rod_length=VEHICLE.rod_length / (1 + pull), rod_end=None), outside),
+        )
+    ]
+    np.testing.assert_allclose(*swung, atol=1e-9)
+
+
 @pytest.mark.parametrize("ratio", [0.85, 1.0, 1.15])
 def test_a_rod_of_another_length_is_found(ratio):
     """Within four of its standard deviations, and within 3 %, in three seconds."""

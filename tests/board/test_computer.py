@@ -7,13 +7,14 @@ import pytest
 import flypend as fp
 from flypend import geometry as geo
 from flypend.board.believed import Believed
-from flypend.board.command import OUTSIDE, usable_lead
+from flypend.board.command import OUTSIDE, finish, usable_lead
 from flypend.board.observer import RECORD, observer
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.laws import Computer
 from flypend.plants import MOTION_CAPTURE, Plant, Wind
 from flypend.plants.equations import EquationsEngine
+from flypend.plants.loop import Loop
 
 VEHICLE = fp.vehicle("hehn2011")
 M, m, l = VEHICLE.M, VEHICLE.m, VEHICLE.l
@@ -127,6 +128,16 @@ def test_in_the_rate_interface_the_prediction_follows_the_loop_on_board(log):
     assert np.max(np.abs(steps[: len(x), :3] - x)) < 2e-3  # ẍ T²/8 of 20 m/s² and 20 ms: 1e-3
     late = np.max(np.abs(steps[: len(x), :3] - truth[: len(x), :3]))
     assert late > 0.05  # 30 ms at some m/s
+
+
+@pytest.mark.parametrize("gain", [10.0, 20.0])
+def test_the_rates_asked_for_are_those_with_which_the_loop_on_board_gives_the_moment(gain):
+    loop = Loop(VEHICLE, law().bind(VEHICLE), Plant(interface="rates", rate_loop_gain=gain))
+    moment, omega = np.array([0.02, -0.03, 0.01]), TUMBLING.omega
+    asked = finish(loop, Believed.numbers(VEHICLE))([5.0, *moment], TUMBLING.packed(), np.full(4, HOVER), [])
+    thrust, *rates = np.array(asked).ravel()
+    given = gain * VEHICLE.I @ (rates - omega) + np.cross(omega, VEHICLE.I @ omega)
+    np.testing.assert_allclose([thrust, *given], [5.0, *moment], rtol=0, atol=1e-15)
 
 
 def test_the_law_is_evaluated_at_the_time_of_actuation():

@@ -249,8 +249,3 @@ def rod_rate_rows(B: Numbers, y: Vector, y_dot: Vector) -> Numbers:
     H[:, SWING] = ca.SX.eye(2)
     H[:, TURN] = -B.T @ cross(y, y_dot) @ y.T
     return H
-
-
-def rotation_vector(R: Matrix) -> Vector:
-    """Return the rotation vector (3,) of a small turn `R` (3, 3), to second order."""
-    return ca.vertcat(R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]) / 2

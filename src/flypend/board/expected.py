@@ -8,7 +8,7 @@ from flypend.board import error_state as errors
 from flypend.board.error_state import Reading
 from flypend.board.felt import force_of
 from flypend.board.history import REACH, History, finds_latency
-from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, unit
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, unit, vee
 from flypend.model import State, Vehicle
 from flypend.plants.defects import POSES
 from flypend.plants.sensing import readings_record
@@ -75,7 +75,7 @@ class Expected:
         Both in the world; one that is older than believed is turned back at that rate.
         """
         age = self._read["attitude_age"]
-        rate = errors.rotation_vector(self._s.R @ self._attitude_at(age).T) / ca.fmax(age, self._history.period)
+        rate = vee(self._s.R @ self._attitude_at(age).T) / ca.fmax(age, self._history.period)
         return self._attitude()[0], rate
 
     def readings(self, vehicle: Vehicle) -> list[list[Reading]]:
@@ -116,7 +116,7 @@ class Expected:
 
     def _attitude(self) -> tuple[Vector, Numbers]:
         read = ca.reshape(self._read["attitude"], 3, 3).T
-        return errors.rotation_vector(read @ self._attitude_at(self._read["attitude_age"]).T), errors.attitude_rows()
+        return vee(read @ self._attitude_at(self._read["attitude_age"]).T), errors.attitude_rows()
 
     def _rod(self) -> tuple[Numbers, Numbers]:
         age = self._read["rod_age"]

@@ -45,6 +45,7 @@ from flypend.plants.plant import Sampled, Wind
 _GUSTY = Wind(gust_on_vehicle=1.0)
 
 
+@lru_cache(maxsize=4)  # a page asks twice, for machine code and for what goes with it
 def pieces_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
     """Return the flights of `loop` in pieces as programs, one at a time.
 

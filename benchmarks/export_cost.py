@@ -16,6 +16,7 @@ import re
 import subprocess
 import tempfile
 import time
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,7 @@ from benchmarks import cortex
 from flypend.compile.matrices import matrices
 from flypend.export import vectors
 from flypend.export.interface import interface
-from flypend.export.library import CompiledBoard, Library
+from flypend.export.library import CompiledBoard, library
 
 LAWS = {
     "corrected": fp.laws.corrected,
@@ -124,10 +125,16 @@ def run(*command, folder):
     return subprocess.run(list(map(str, command)), cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
+@cache
+def built(folder, target, *command):
+    """Compile with `command` to the file `target` in `folder`, once for all that is measured of it."""
+    run(*command, "-o", target, folder=folder)
+
+
 def callgrind(folder, caller):
     """Instructions of one call of the function `caller` on x86-64."""
     (folder / "main.c").write_text(MAIN)
-    run("gcc", "-std=gnu99", "-O2", f"-DCALLS={CALLS}", "main.c", "flypend_law.c", "-lm", "-o", "main", folder=folder)
+    built(folder, "main", "gcc", "-std=gnu99", "-O2", f"-DCALLS={CALLS}", "main.c", "flypend_law.c", "-lm")
     tool = ("valgrind", "--tool=callgrind", f"--toggle-collect={caller}", "--callgrind-out-file=calls")
     done = subprocess.run([*tool, "./main"], cwd=folder, check=True, capture_output=True, text=True)
     return int(re.search(r"Collected : (\d+)", done.stderr)[1]) // CALLS
@@ -135,7 +142,7 @@ def callgrind(folder, caller):
 
 def microseconds(law, vehicle, precision, part):
     """Time of one call on this core: the best of five."""
-    code = Library(law, vehicle, precision)
+    code = library(law, vehicle, precision)
     fly = _boards(code, precision) if part == "board" else _steps(code, vehicle, precision)
     best = np.inf
     for _ in range(5):
@@ -166,8 +173,8 @@ def _boards(code, precision):
 def executed(folder, caller):
     """Cycles of the dearest of five calls of the function `caller` on a Cortex-M4F."""
     sources = ("main.c", "flypend_law.c", cortex.HERE / "start.c")
-    words = (*cortex.FLAGS, "-std=gnu99", "-O2", "-DCALLS=5", *cortex.LINKED, *sources, "-lm", "-o", "main.elf")
-    run("arm-none-eabi-gcc", *words, folder=folder)
+    words = (*cortex.FLAGS, "-std=gnu99", "-O2", "-DCALLS=5", *cortex.LINKED, *sources, "-lm")
+    built(folder, "main.elf", "arm-none-eabi-gcc", *words)
     return max(cortex.cycles(folder / "main.elf", caller))
 
 
@@ -200,6 +207,7 @@ def weights(made):
     }
 
 
+@cache
 def compiled_for_m4(folder, name, *flags):
     """Instructions of every function of the law compiled to `name`.o, all in one section, so that calls have names."""
     run("arm-none-eabi-gcc", *ARM, *flags, "-fstack-usage", "-c", "flypend_law.c", "-o", f"{name}.o", folder=folder)

@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,22 @@ def pytest_configure(config):
     sys.dont_write_bytecode = False
 
 
+def pytest_collection_modifyitems(items):
+    """Begin with the tests of the whole project, which build the site, wheel and environments for minutes.
+
+    At the end, a worker out of work would take half of them from the other, and build all of that once more.
+    """
+    items.sort(key=lambda item: item.path.parent != Path(__file__).parent)
+
+
+@pytest.fixture(scope="module")
+def one_plan():
+    """Let `check` plan from one random start where a law fails: eight plans take longer than all of its flights."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(import_module("flypend.studies.check"), "STARTS", 1)
+        yield
+
+
 @pytest.fixture(scope="module")
 def chromium():
     program = shutil.which("chromium")
@@ -40,12 +57,17 @@ def chromium():
 def offline(chromium):
     """Return a function that opens a file in a context of its own, without a network; arguments are the context's.
 
+    Unless `drawn`, it leaves out draw calls: the scene takes a processor more time than all else that a page does.
     At the end no page has asked for anything, and none has complained.
     """
+    from benchmarks.frames import UNDRAWN  # imported here: most tests open no page
+
     contexts, asked, complaints = [], [], []
 
-    def open_(address, **setting):
+    def open_(address, *, drawn=True, **setting):
         context = chromium.new_context(offline=True, **setting)
+        if not drawn:
+            context.add_init_script(UNDRAWN)
         contexts.append(context)
         page = context.new_page()
         page.on("request", lambda request: asked.append(request.url))

@@ -12,6 +12,8 @@ from flypend.settings.runfile import plant_of
 
 QUICK = ("--runs", "16", "--no-margins", "--no-figures")
 
+pytestmark = pytest.mark.usefixtures("one_plan")
+
 
 def written(folder, **changes):
     """A TOML file of hehn2011 with `changes`."""
@@ -58,17 +60,16 @@ def test_advice_is_printed_and_written(call, tmp_path):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"mass": 5.0, "bob_mass": 0.5}, "the weight is 53.96 N with mass 5 kg + bob_mass 0.5 kg (not g)"),
-        ({"gravity": 0.0}, "without gravity no pose of the rod is upright"),
-        ({"rotor_lag": 0.5}, "rotor lag and delay of 500 ms are too long"),
-        ({"rotor_lag": 0.5}, "the inverted law refuses the vehicle"),
+        ({"mass": 5.0, "bob_mass": 0.5}, ["the weight is 53.96 N with mass 5 kg + bob_mass 0.5 kg (not g)"]),
+        ({"gravity": 0.0}, ["without gravity no pose of the rod is upright"]),
+        ({"rotor_lag": 0.5}, ["rotor lag and delay of 500 ms are too long", "the inverted law refuses the vehicle"]),
     ],
 )
 def test_a_vehicle_that_cannot_exits_with_1_and_the_reason(call, tmp_path, changes, words):
     code, out, _ = call("check", written(tmp_path, **changes), *QUICK)
     assert code == 1
-    assert words in " ".join(out.split())
-    assert words in (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+    report = (tmp_path / "check-out" / "report.md").read_text(encoding="utf-8")
+    assert all(one in " ".join(out.split()) and one in report for one in words)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,8 @@ from flypend.studies.advice import CHANGES, advise, changed, changes_of
 
 HEHN = fp.vehicle("hehn2011")
 
+pytestmark = pytest.mark.usefixtures("one_plan")
+
 
 def weak(force):
     """hehn2011 with rotors of so many newtons; it weighs 5.4."""
@@ -15,7 +17,7 @@ def weak(force):
 
 
 @pytest.fixture(scope="module")
-def checks():
+def checks(one_plan):
     return {name: fp.check(HEHN, getattr(fp.laws, name)(), runs=24, margins=False) for name in ("inverted", "lqr")}
 
 

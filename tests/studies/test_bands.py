@@ -92,7 +92,7 @@ def test_without_a_plant_nothing_is_compared():
         fp.compare(NEAR, fp.laws.inverted(), fp.random_starts(2, 1), 1.0, plant=())
 
 
-def test_a_check_flies_what_is_drawn_beside_what_is_written():
+def test_a_check_flies_what_is_drawn_beside_what_is_written(one_plan):
     """A band that the law cannot follow shows in the task drawn, and nowhere else."""
     wide = fp.vehicle("hehn2011").replace(bands={"thrust_scale": (0.3, 0.31)})
     found = fp.check(wide, runs=18, duration=6.0, margins=False, bands=True)

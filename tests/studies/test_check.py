@@ -1,6 +1,7 @@
 """A check says of a vehicle and a law what their flights do, and why not, if they cannot."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -13,6 +14,8 @@ from flypend.studies.check import check as examine
 
 HEHN = fp.vehicle("hehn2011")
 FEW = {"runs": 32, "duration": 8.0, "margins": False}
+
+pytestmark = pytest.mark.usefixtures("one_plan")
 
 
 @pytest.fixture(scope="module")
@@ -54,8 +57,9 @@ def test_a_vehicle_that_cannot_be_flown_is_a_result_with_a_reason(vehicle, law, 
     assert words in repr(found)
 
 
-def test_what_a_law_cannot_do_is_planned_to_tell_law_from_vehicle():
+def test_what_a_law_cannot_do_is_planned_to_tell_law_from_vehicle(monkeypatch):
     """LQR stands no rod that falls; plans do."""
+    monkeypatch.setattr(sys.modules[examine.__module__], "STARTS", 8)
     found = fp.check(HEHN, fp.laws.lqr(), **FEW)
     assert found.ok  # it hovers
     assert (found.envelope["hover"], found.envelope["random"]) == ("all", "some")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from benchmarks.frames import AT_REST
+from benchmarks.frames import AT_REST, UNDRAWN
 from flypend import palette
 from flypend.paper import experiment
 
@@ -60,7 +60,7 @@ def visit(chromium, tmp_path):
         contexts.append(context)
         page = context.new_page()
         page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.add_init_script(before)
+        page.add_init_script(UNDRAWN + before)  # of the scene: the portrait is a canvas of its own
         page.goto((tmp_path / "page.html").as_uri())
         until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
         page.evaluate(AT_REST)

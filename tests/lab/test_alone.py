@@ -24,7 +24,7 @@ def file(tmp_path_factory):
 @pytest.fixture
 def visit(offline, file):
     def open_(hash_=""):
-        page = offline(file.as_uri() + hash_, viewport=WIDE, color_scheme="light")
+        page = offline(file.as_uri() + hash_, drawn=False, viewport=WIDE, color_scheme="light")
         shown(page)
         page.evaluate(AT_REST)
         return page
@@ -83,10 +83,16 @@ def test_the_story_has_the_steps_that_can_be_flown(visit):
     expect_flight(page)
 
 
-def test_the_chapters_are_a_page_of_their_own(offline, tmp_path):
-    (tmp_path / "chapters.html").write_text(chapters_page(), encoding="utf-8")
-    assert (tmp_path / "chapters.html").stat().st_size < 1.5e6
-    page = offline((tmp_path / "chapters.html").as_uri(), viewport=WIDE, color_scheme="light")
+@pytest.fixture(scope="module")
+def chapters(tmp_path_factory):
+    path = tmp_path_factory.mktemp("figures") / "chapters.html"
+    path.write_text(chapters_page(), encoding="utf-8")
+    return path
+
+
+def test_the_chapters_are_a_page_of_their_own(offline, chapters):
+    assert chapters.stat().st_size < 1.5e6
+    page = offline(chapters.as_uri(), drawn=False, viewport=WIDE, color_scheme="light")
     shown(page)
     assert page.locator(".story .chips button").count() == len(offer()["story"])
     for step in offer()["story"]:
@@ -97,16 +103,9 @@ def test_the_chapters_are_a_page_of_their_own(offline, tmp_path):
             shown(page)
 
 
-@pytest.fixture(scope="module")
-def chapters(tmp_path_factory):
-    path = tmp_path_factory.mktemp("figures") / "chapters.html"
-    path.write_text(chapters_page(), encoding="utf-8")
-    return path
-
-
 @pytest.mark.parametrize("step", [*story(), *figures()], ids=lambda step: step["name"])
 def test_a_figure_has_one_slider_and_one_plot_and_flies_as_in_the_package(offline, chapters, step):
-    page = offline(f"{chapters.as_uri()}?figure={step['name']}", viewport={"width": 704, "height": 432})
+    page = offline(f"{chapters.as_uri()}?figure={step['name']}", drawn=False, viewport={"width": 704, "height": 432})
     shown(page)
     page.evaluate("flypend.pause()")
     assert setting(page) == step["setting"]

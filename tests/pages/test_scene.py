@@ -21,9 +21,10 @@ MACHINE = fp.vehicle("hehn2011")
 
 @pytest.fixture
 def visit(offline, tmp_path):
-    def open_(run, address="", **options):
+    def open_(run, address="", *, drawn=False, **options):
         run.to_html(tmp_path / "page.html", **options)
-        page = offline((tmp_path / "page.html").as_uri() + address, viewport=SMALL, color_scheme="light")
+        file = (tmp_path / "page.html").as_uri()
+        page = offline(file + address, drawn=drawn, viewport=SMALL, color_scheme="light")
         until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
         page.evaluate(AT_REST)
         return page
@@ -116,7 +117,7 @@ def test_heights_are_told_apart_and_not_over_the_sphere_of_directions(visit):
 
 
 def test_a_hub_looks_different_from_a_gimbal(visit):
-    hub, gimbal = (picture(visit(hovering(mount))) for mount in ("hub", "gimbal"))
+    hub, gimbal = (picture(visit(hovering(mount), drawn=True)) for mount in ("hub", "gimbal"))
     assert np.mean(np.any(np.abs(hub - gimbal) > 30, axis=-1)) > 0.005
 
 
@@ -125,7 +126,7 @@ def test_forbidden_starts_are_shaded_and_a_rod_in_one_is_freed(visit):
     rotor = run.vehicle.rotors_from_pivot[0]
     first = live_data(run.flight)["offer"]["first"]
     blocked = first | {"start": first["start"] | {"y": unit(rotor).tolist()}}
-    page = visit(run, "#" + quote(json.dumps(blocked)), live=True)
+    page = visit(run, "#" + quote(json.dumps(blocked)), live=True, drawn=True)
     assert page.evaluate("flypend.verdict().state") == "failed"
     assert page.evaluate("flypend.verdict().words").startswith("collided at the start, the rod touched ")
     notice = page.locator(".notice")
@@ -152,7 +153,7 @@ def test_forbidden_starts_are_shaded_and_a_rod_in_one_is_freed(visit):
 def test_the_pass_between_the_arms_is_seen_from_near_by_with_its_clearance(visit):
     run = fp.simulate(MACHINE.replace(mount="hub"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.0)
     least = run.t[np.argmin(run.clearance)]
-    page = visit(run)
+    page = visit(run, drawn=True)
     near = page.locator(".near")
     assert near.is_hidden()
     page.evaluate(f"flypend.seek({least})")

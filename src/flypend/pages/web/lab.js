@@ -296,7 +296,7 @@ main.lab.kiosk { height: 100dvh; overflow: hidden; background: var(--paper); gri
 .kiosk header > :not(h1), .kiosk .low, .kiosk .notice { display: none; }
 .kiosk h1 { font-size: clamp(1.214rem, 3vmin, 2.6rem); }
 .kiosk .motion b { font-size: 1.2em; }
-.kiosk :is(.motion, .recovered) { font-size: clamp(1rem, 2.3vmin, 2.2rem); }
+.kiosk :is(.motion, .recovered, .near) { font-size: clamp(1rem, 2.3vmin, 2.2rem); }
 .kiosk .handle { --across: max(6.28571rem, 9vmin); border-width: 0.28571rem; }
 .kiosk .invite { display: none; }
 .kiosk:not([data-game="idle"]):not([data-game="ready"]):not([data-game="held"]) .handle { visibility: hidden; }

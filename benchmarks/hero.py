@@ -39,7 +39,7 @@ SAY = """([word, on]) => {
     Object.assign(document.createElement("p"), { className: "poke-word" }));
   const [left, top] = flypend.screen(0)[on === "bob" ? "bob" : "pivot"];
   said.textContent = word;
-  Object.assign(said.style, { left: `${left + 26}px`, top: `${top - 44}px` });
+  Object.assign(said.style, { left: `${left + 26}px`, top: `${Math.max(top - 44, 6)}px` });
 }"""
 
 

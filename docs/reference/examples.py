@@ -490,7 +490,7 @@ bob = run.x + run.vehicle.l * run.y
 axes.plot(run.x[:, 0], run.x[:, 1], label="pivot")
 axes.plot(bob[:, 0], bob[:, 1], label="bob")
 axes.set(xlabel="x₁ (m)", ylabel="x₂ (m)", aspect="equal")
-axes.legend()
+axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
 figure.savefig("circle.png")
 
 # %% references.lemniscate | api/lemniscate.png: The vehicle's path from above: a figure of eight, and the path of the bob inside it

@@ -9,6 +9,7 @@ const KEY = [
   ["failed", "no start: the rod would touch"], ["rod", "rod and bob"], ["front", "front rotor"], ["thrust", "thrust of each rotor, total in outline"], ["trail", "path of the bob"], ["ink", "path of the vehicle"],
   ["reference", "reference"],
 ];
+const BESIDE = 14; // CSS pixels between the middle of a height and other words
 const FALL = 1; // m below the start, from which on a descent is called a fall
 
 export class Captions {
@@ -26,20 +27,26 @@ export class Captions {
     this.near = Object.assign(document.createElement("p"), { className: "near", hidden: true });
     this.room = this.near.appendChild(document.createElement("span"));
     parent.append(this.near);
-    this.globe = low.querySelector(".globe");
-    new ResizeObserver(() => this.#measure()).observe(low);
+    this.low = low;
+    this.sizes = new ResizeObserver(() => this.#measure());
+    this.sizes.observe(low);
   }
 
   /** For other `flights`. */
   load(flights) {
     this.several = flights.length > 1;
-    for (const view of this.views) view.root.remove();
+    for (const view of this.views) {
+      this.sizes.unobserve(view.said);
+      view.root.remove();
+    }
     this.views = flights.map((flight) => {
       const root = document.createElement("div");
       root.className = "view";
       root.innerHTML = `<div class="said"><p class="motion"><span class="name"></span><b></b> <span class="moving"></span></p><p class="recovered"></p><p class="ended"></p></div>`;
       this.parent.append(root);
-      return { flight, root, phase: root.querySelector(".motion b"), motion: root.querySelector(".moving"), name: root.querySelector(".name"), recovered: root.querySelector(".recovered"), ended: root.querySelector(".ended"), compass: new Compass(root) };
+      const said = root.querySelector(".said");
+      this.sizes.observe(said);
+      return { flight, root, said, phase: root.querySelector(".motion b"), motion: root.querySelector(".moving"), name: root.querySelector(".name"), recovered: root.querySelector(".recovered"), ended: root.querySelector(".ended"), compass: new Compass(root) };
     });
   }
 
@@ -62,7 +69,7 @@ export class Captions {
       write(view.ended, t >= flight.end && !flight.completed ? flight.verdict.words : "");
     });
     if (this.barred.hidden === stage.barred.visible) this.barred.hidden = !stage.barred.visible;
-    this.#heights(stage.marks(), stage.height);
+    this.#heights(stage.marks());
     this.#near(stage.near);
     const larger = stage.factor > 1 ? `machine × ${stage.factor}, ` : "";
     write(this.grid, `${larger}grid ${+stage.spacing.toPrecision(2)} m`);
@@ -78,18 +85,20 @@ export class Captions {
     write(this.room, room(clearance));
   }
 
-  /** How far the sphere of directions reaches from the left and from below, over which no height is written. */
+  /** Where words, key and sphere of directions are, over which no height is written: CSS pixels of the picture. */
   #measure() {
-    const { left, bottom } = this.parent.getBoundingClientRect(), globe = this.globe?.getBoundingClientRect();
-    this.taken = globe?.width ? { right: globe.right - left, up: bottom - globe.top } : { right: 0, up: 0 };
-    if (this.pole) this.#heights(...this.pole); // also while nothing moves
+    const { left, top } = this.parent.getBoundingClientRect();
+    this.taken = [...this.low.querySelectorAll(".globe, figcaption, .key"), ...this.views.map(({ said }) => said)]
+      .map((element) => element.getBoundingClientRect()).filter(({ width }) => width)
+      .map((box) => ({ left: box.left - left, top: box.top - top, right: box.right - left, bottom: box.bottom - top }));
+    if (this.pole) this.#heights(this.pole); // also while nothing moves
   }
 
-  /** Write the heights at the `marks` of the pole in a picture that is `bottom` pixels high. */
-  #heights(marks, bottom) {
-    this.pole = [marks, bottom];
-    const { right, up } = this.taken ?? { right: 0, up: 0 };
-    marks = marks.filter(({ at: [across, down], before }) => across - before > right || down < bottom - up);
+  /** Write the heights at the `marks` of the pole where nothing else stands. */
+  #heights(marks) {
+    this.pole = marks;
+    marks = marks.filter(({ at: [across, down], before, size }) => !this.taken?.some((box) => (
+      across - before < box.right && across - before + size > box.left && down + BESIDE > box.top && down - BESIDE < box.bottom)));
     while (this.marks.length < marks.length) {
       const mark = document.createElement("span");
       mark.className = "height";

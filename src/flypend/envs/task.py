@@ -214,7 +214,7 @@ def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> T
         Way of the goal: round a circle of radius `size`, along a figure eight of half-length `size`, or through corners
         of a square of half-width `size`, one after the other.
     size, turn_rate : float
-        Size, m, and angular rate, rad/s, of which a square takes four corners a turn.
+        Size, m, and angular rate, rad/s; on a square, four corners make a turn.
     """
     curves = {"circle": _circle, "lemniscate": _eight, "waypoints": _square}
     errors.one_of("shape", shape, curves)

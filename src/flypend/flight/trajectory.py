@@ -276,9 +276,9 @@ class Trajectory:
         speed : float
             Initial flight time over playback time, > 0. A menu on the page changes it.
         live : bool
-            Whether the page flies by itself: pokes, starts, gains and a hand on the rod are answered by the equations,
-            as WebAssembly. For flights through a sampled plant of the built-in equations, under a compiled law, flown
-            in this session; the other runs stay as they were.
+            Whether the page computes flights itself: it answers pokes, starts, gains and a hand on the rod with the
+            equations, as WebAssembly. For flights through a sampled plant of the built-in equations, under a compiled
+            law, flown in this session; the other runs stay as they were.
         windows : sequence of Window
             Openings in walls that are drawn, e₃ up; `Plan.windows` are those that a plan flies through.
 

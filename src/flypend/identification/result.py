@@ -89,7 +89,7 @@ class Identified:
 
     @property
     def torque_over_inertia(self) -> tuple[float, float]:
-        """Band of drag_ratio/I₃, 1/(kg m): what yaw tells of the two, far narrower than theirs."""
+        """Band of drag_ratio/I₃, 1/(kg m): yaw reveals the quotient, and its band is far narrower than theirs."""
         at = places(self._fit.search.table)
         a, b = at["drag_ratio"].start, at["inertia"].stop - 1
         C = self._fit.covariance

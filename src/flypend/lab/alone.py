@@ -24,7 +24,7 @@ Tell = Callable[[str, int, int], Any]
 
 
 def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *, tell: Tell = lambda *_: None) -> str:
-    """Return the laboratory as HTML that flies by itself, offline.
+    """Return the laboratory as HTML that computes its flights itself, offline.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *
 
 
 def chapters_page() -> str:
-    """Return the derivation in eight chapters as HTML that flies by itself, offline, from the first on.
+    """Return the derivation in eight chapters as HTML that computes its flights itself, offline; it opens at the first.
 
     With an address that ends in ?figure= and the name of a step of `story` or `figures` it is a figure of that step.
     """

@@ -201,7 +201,7 @@ def document_gains(gains: Mapping[str, Gain]) -> Callable[[F], F]:
 def _entries(gains: Mapping[str, Gain]) -> list[str]:
     out = ["Gains", "-----"]
     for gain in gains.values():
-        kind = " or ".join(f'"{word}"' for word in gain.choices) or "float"
+        kind = " or ".join(f'"{word}"' for word in gain.choices) or ("float" if gain.numeric else "str")
         default = "" if callable(gain.default) else f", default {gain.default!r}"
         out += [f"{gain.name} : {kind}{default}", f"    {gain.describe()}"]
     return out

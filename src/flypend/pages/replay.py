@@ -81,7 +81,7 @@ def page(
     speed : float
         Initial playback speed, flight time over playback time, > 0.
     live : dict, optional
-        What the page flies by itself: see `flypend.flight.live`.
+        What a page needs to compute flights itself: see `flypend.flight.live`.
     windows : sequence of planning.Window
         Openings in walls that are drawn.
 

@@ -247,7 +247,7 @@ class Sensors:
         return {entry.name: entry.default for entry in fields(self) if entry.name in (*defects.NAMES, "adjustable")}
 
     def following(self, departure: Any) -> Any:
-        """Return the squared bandwidth, 1/s², at which the estimator follows the force that an accelerometer tells.
+        """Return the squared bandwidth, 1/s², at which the estimator follows the force that an accelerometer shows.
 
         `departure` is the squared departure of the specific force from that of hover, (m/s²)².
         """

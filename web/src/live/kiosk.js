@@ -9,7 +9,7 @@ const MOST = 5; // s of flight, a score that wins
 const CHEER = 4000; // ms for which a victory is shown
 const BEAT = 200; // ms between two looks at the clock
 
-const RULES = `Grab the ball and fling it. Score: the seconds until rod and drone are back in place. ${MOST} s, or a crash: you win.`;
+const RULES = `Grab the ball and fling it. Score: the seconds until rod and drone are back in place. Make it take ${MOST} s, or crash it, and you win.`;
 const HTML = `<p class="headline" role="status"></p><p class="rules">${RULES}</p><p class="best"></p>`;
 
 /** Seconds until a page that is opened as a kiosk shows the swing-up again, from its address: ?kiosk or ?kiosk=20; null: it is none. */

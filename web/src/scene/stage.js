@@ -18,8 +18,8 @@ const FLOOR = { under: 1.25, below: 0.35 }; // reaches of the machine: of a floo
 const LEAST = 0.03; // of its distance: a machine that is further away is drawn larger than it is
 const ROOM = 0.55, BLURRED = 0.04; // strength of the light that comes from a room, and how far it is blurred, rad
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
-const WORDS = { above: 46, below: 36 }; // CSS pixels of the picture with words of their own
 const HEIGHT = 70; // CSS pixels that a height beside the pole takes
+const EDGE = 12; // CSS pixels from the edge of the picture, at least, to the middle of a height
 const STEEP = 0.9; // sine of the camera's elevation from which on a pole is a point
 
 export const LAYOUTS = ["overlay", "beside"];
@@ -209,15 +209,16 @@ export class Stage {
 
   /**
    * Heights over the start that the pole marks near the first machine, m, their CSS pixels, and how many are free
-   * `before` them: 0 where the machine is to the left of the pole, so that no word hides it; none side by side or from above.
+   * `before` them: 0 where the machine is to the left of the pole, so that no word hides it; and the `size` of their words.
+   * None side by side or from above.
    */
   marks() {
     const [view] = this.views;
     if (!view || this.layout === "beside" || Math.abs(view.back[2]) > STEEP) return [];
     const [left, right] = [view.left, view.left + view.width], [machine] = this.screen(0).pivot, size = HEIGHT * this.larger;
     return this.pole.marks(this.flyers[0].pose.x[2]).map(({ height, place }) => ({ height, at: project(place, view) }))
-      .map(({ height, at }) => ({ height, at, before: machine > at[0] && at[0] - left > size ? size : 0 }))
-      .filter(({ at: [across, down] }) => across > left && across < right && down > WORDS.above && down < view.height - WORDS.below);
+      .map(({ height, at }) => ({ height, at, size, before: machine > at[0] && at[0] - left > size ? size : 0 }))
+      .filter(({ at: [across, down] }) => across > left && across < right && down > EDGE && down < view.height - EDGE);
   }
 }
 

@@ -392,13 +392,11 @@ class Solver:
         """Let errors at the end come as near to their tolerances as the cost wants them, by a multiplier for each.
 
         The offset is the multiplier over the weight, which grows where errors are far too large, and falls again. After
-        a step shorter than 1 it changes by as much less, or it would run ahead of the errors. Where these are far too
-        large it waits for the weight: both at once drive each other.
+        a step shorter than 1 it changes by as much less, or it would run ahead of the errors.
         """
         settings, size, pushed = self._set, np.abs(self._errors), np.abs(self._offset)
-        far = self.end > FAR_OFF
-        pushed = np.maximum(0.0, pushed + np.where(far, 0.0, ASCENT * length) * (size - settings.missed))
-        near = pushed.max(axis=0) < PUSHED
+        pushed = np.maximum(0.0, pushed + ASCENT * length * (size - settings.missed))
+        far, near = self.end > FAR_OFF, pushed.max(axis=0) < PUSHED
         factor = np.where(far, settings.end_growth, np.where(near, 1 / settings.end_growth, 1.0))
         before = self._weight[0].copy()
         self._weight[0] = np.clip(factor * before, settings.end_weight, settings.most_end_weight)

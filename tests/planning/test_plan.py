@@ -38,7 +38,7 @@ def check_end(plan):
 
 def test_a_swing_up_ends_in_hover_and_hardly_moves(swing_up):
     assert swing_up.status == "converged"
-    assert 1 <= swing_up.agreeing < swing_up.guesses == 16  # eight for each of two durations
+    assert 1 <= swing_up.agreeing < swing_up.guesses == 8
     check_end(swing_up)
     # The pivot moves by a sixth of the rod's length; the inverted law, tuned for this, by more than a length.
     assert swing_up.excursion < 0.1
@@ -140,7 +140,7 @@ def test_a_shaft_too_narrow_is_told_in_a_line():
     start, corner = fp.State(x=(0, 0, 0.25), y=(0, 0, -1)), np.array([0.05, 0.05, 0.5])
     plan = plan_of(HEHN, start, target=(0, 0, -0.25), box=(-corner, corner), duration=3.0)
     assert not plan
-    assert plan.reason == "inverted hover is not reached"
+    assert plan.reason == "a wish is not kept"
 
 
 @pytest.mark.parametrize("mount", ["hub", "cup"])
@@ -253,7 +253,7 @@ def test_a_push_leads_through_a_flat_valley():
     assert plan.excursion < 2.22
 
 
-@pytest.mark.parametrize(("start", "knowing", "by_chance"), [(12, False, True), (2, True, False)])
+@pytest.mark.parametrize(("start", "knowing", "by_chance"), [(8, False, True), (9, True, False)])
 def test_guesses_race_with_and_without_constraints(start, knowing, by_chance):
     """From some starts only those find a way that know of the walls, from others only those that do not."""
     walls, rounds = ((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf)), {4: 4, 8: 2}

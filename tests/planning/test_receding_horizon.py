@@ -253,7 +253,7 @@ def test_a_wall_is_kept_with_masses_off_by_a_tenth(plant):
     kept, law = (
         fp.simulate(HEHN, law, STARTS[1], 1.5, plant=plant) for law in (fp.nmpc(HEHN, box=box), fp.laws.inverted())
     )
-    assert beyond(kept) < -0.05
+    assert beyond(kept) < 0
     assert beyond(law) > 0.2
 
 
@@ -289,6 +289,16 @@ def test_where_no_plan_is_in_time_to_keep_walls_that_which_breaks_them_least_is_
     assert modes(pilot)[:2] == ["planned"]
     assert nmpc < 0.05
     assert law > 0.3
+
+
+def test_a_floor_that_a_plan_touches_is_kept_in_flight():
+    """A barrier about the floor jams once the flight is a millimetre below the plan; then it falls far below."""
+    start = fp.random_starts(32, 7601)[31]
+    run, pilot = flown_by(fp.nmpc(HEHN, floor=FLOOR), start, 1.0)
+    plan = pilot.plans[0]
+    planned, flown = (np.min([each.x[:, 2], each.x[:, 2] + HEHN.reach * each.y[:, 2]]) for each in (plan, run))
+    assert planned < FLOOR + 1e-3
+    assert flown > FLOOR - 1e-3
 
 
 def test_a_plan_that_breaks_a_floor_is_taken_only_if_that_is_asked_for():

@@ -38,8 +38,8 @@ from flypend.planning.solver import Settings
 from flypend.planning.verdict import plans_of
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
-# Tried before, the first only beside a time that is asked for. A plan of 8 is 1.5 to 3 times better than one of 12.5
-# from 3 of 80 random starts; one of 6 is better than both by at most 0.4 % from 60.
+# Tried before a time that is asked for, which may be longer than is good. Before the first of `HORIZONS` they are not
+# worth their time: eight guesses with 8 lead to a plan that is better by 2 % than with 12.5 from 1 of 384 starts.
 SHORTER = (6.0, 8.0)
 EQUAL = 1e-3  # share by which a shorter flight must be better to be kept
 STOPPED = "stopped at the time limit"
@@ -147,9 +147,9 @@ def ladder(duration: float | None, asked: Request) -> list[float]:
 
     With a path there is no other, since it says where to be at each time; nor where the end is no place to wait.
     """
-    waits = asked.waits and not asked.structure.path
     if duration is None:
-        return [*(SHORTER[-1:] if waits else ()), *HORIZONS]
+        return list(HORIZONS)
+    waits = asked.waits and not asked.structure.path
     shorter = [] if not waits else [each for each in (*SHORTER, *HORIZONS) if each < (1 - EQUAL) * duration]
     return [*shorter, duration]
 

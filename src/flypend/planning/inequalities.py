@@ -32,6 +32,7 @@ OWN = 7
 # Numbers of another end than hover upright: velocity, thrust axis, angular velocity, rod, its rate, and whether forces
 # are those of hover.
 OTHER_END = 16
+WALLS = 7  # reach of the rod and corners of the box
 DIFFERENCE = 1e-4
 SOFT = 0.03  # rod lengths, or weights: what is by so much too near costs its full weight
 
@@ -56,7 +57,7 @@ class Structure:
 
         These are the gates, the weight of being too near, and the margin of the mount.
         """
-        return self.hard + 7 * self.box + self.speed + self.lean + NUMBERS * self.gates + 2 * self.soft
+        return self.hard + WALLS * self.box + self.speed + self.lean + NUMBERS * self.gates + 2 * self.soft
 
     @property
     def of_own(self) -> int:
@@ -76,7 +77,7 @@ class Structure:
     @property
     def soft(self) -> bool:
         """Whether some are kept by a cost that grows: those about what the machine is not to touch."""
-        return self.mounted is not None or self.gates > 0
+        return self.mounted is not None or self.gates > 0 or self.box
 
     def exact(self, rotors: int) -> int:
         """Return how many inequalities, the first ones, can always be kept: limits of `rotors` rotors and the ball."""
@@ -104,11 +105,7 @@ def inequalities(
     s, place = State.symbolic(state[:SIZE]), structure.hard
     off = s.x - middle if structure.path else s.x
     g = [command - numbers[LOW], numbers[HIGH] - command, shared - dot(off, off)]
-    if structure.box:
-        reach, low, high = numbers[place], numbers[place + 1 : place + 4], numbers[place + 4 : place + 7]
-        for point in (s.x, s.x + reach * s.y):
-            g += [point - low, high - point]
-        place += 7
+    place += WALLS * structure.box
     if structure.speed:
         g.append(numbers[place] - dot(s.x_dot, s.x_dot) / numbers[place])
         place += 1
@@ -140,17 +137,26 @@ def _own(state: ca.SX, numbers: ca.SX, structure: Structure, function: str) -> c
 
 
 def nearness(state: ca.SX, about: ca.SX, numbers: ca.SX, structure: Structure, machine: Scaled) -> ca.SX:
-    """Return by how much rod and machine are nearer than they should be to mount and frames, (k, 1), units of `SOFT`.
+    """Return by how much rod and machine are nearer than they should be to walls, mount and frames, (k, 1).
 
-    Their squares cost the last but one of `numbers`; the last is the margin that the mount is to keep, in rod lengths
-    or weights.
+    It is in units of `SOFT`. The squares cost the last but one of `numbers`; the last is the margin that the mount is
+    to keep, in rod lengths or weights.
     """
     first = structure.numbers - 2 - NUMBERS * structure.gates
     gates = [numbers[first + NUMBERS * i : first + NUMBERS * (i + 1)] for i in range(structure.gates)]
-    near = [-passing(state, about, gate) for gate in gates]
+    near = [beyond(state, numbers, structure), *(-passing(state, about, gate) for gate in gates)]
     if structure.mounted is not None:
         near.append(numbers[-1] - _least_margin(state, about, structure.mounted, machine))
     return ca.fmax(0, ca.vertcat(ca.SX(0, 1), *near) / SOFT)
+
+
+def beyond(state: ca.SX, numbers: ca.SX, structure: Structure) -> ca.SX:
+    """Return how far pivot and far end of the rod are beyond each wall of the box, (k, 1), in rod lengths."""
+    if not structure.box:
+        return ca.SX(0, 1)
+    reach, low, high = ca.vertsplit(numbers[structure.hard : structure.hard + WALLS], [0, 1, 4, 7])
+    x, y = state[POSITION], state[18:21]
+    return ca.vertcat(*(ca.vertcat(low - point, point - high) for point in (x, x + reach * y)))
 
 
 def _least_margin(state: ca.SX, about: ca.SX, mounted: Vehicle, machine: Scaled) -> ca.SX:
@@ -237,6 +243,7 @@ class Barrier:
         here, command, place = retract(stage.before, delta), stage.command + upsilon, ca.SX.sym("place", 3)
         self._g = inequalities(here, command, shared + epsilon, numbers, place, structure, stage.machine)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
+        self._beyond = beyond(here, numbers, structure)
         self._near = nearness(here, stage.before, numbers, structure, stage.machine)
         self._cost, self._end = running_cost(command, numbers), end_errors(here, numbers, other=structure.end)
         self._own = residuals(here, numbers, structure)
@@ -267,6 +274,7 @@ class Barrier:
         wished = ca.sumsqr(self._own) / 2
         merit = self._cost + wished + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
         lack = (ca.sum1(slack[k:] - g[k:]), ca.sum1(ca.fmax(0, -g[k:]))) if k < g.numel() else (0, 0)
+        lack = lack[0], lack[1] + ca.sum1(ca.fmax(0, self._beyond))
         summary = ca.vertcat(merit, *lack)
         summary = ca.vertcat(summary, wished) if self._own.numel() else summary
         return self._function("values", [*self._point, self._slack, self._mu, *self._place], summary, slack)

@@ -159,7 +159,7 @@ def request(
     gates = [through(each, vehicle, route, goal, apart) for each in windows]
     numbers += [number for gate in (*gates, *along(points, vehicle, ends, goal)) for number in gate]
     mounted = None if vehicle.mount == "gimbal" else vehicle
-    if mounted is not None or windows or len(points):
+    if mounted is not None or windows or len(points) or walls is not None:
         numbers += [0.0, apart / units.length]
     packed = start.packed()
     packed[:3] -= goal

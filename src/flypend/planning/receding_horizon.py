@@ -30,6 +30,7 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.dynamics import Units
 from flypend.planning.fallback import LONGEST, SKETCH, Fallback, Schedule
+from flypend.planning.inequalities import WALLS
 from flypend.planning.model_error import ModelError
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import STAGES_PER_UNIT, Request, request
@@ -54,6 +55,10 @@ MEASURED_AT_FIRST = 2e-3  # s, expected of an iteration that is measured
 # In hover an estimator learns slowly of forces that last; until then the law is shown a position that is off by the
 # integral of the distance, of this rate, √(g/l), and at most so long, rod lengths.
 INTEGRAL, MOST_OFF = 0.06, 1.0
+# Weight of walls in flight. With that of mounts the merit bends so sharply at a wall that none of the few lengths of an
+# iteration lowers it, ten times in a row; with this the flight is beyond a wall by less than a millimetre where it can.
+WALL = 1.0
+MARGIN = 0.01  # rod lengths, by which iterations keep off a wall: the flight is up to 5 mm off what they predict
 PAUSE = 1.0  # √(l/g), after the second failure in a row, and ever longer; after the last attempt the law flies to hover
 # Constraints that are not kept in flight, and why; and those that do not say where or how fast the pivot may be.
 NOT_IN_FLIGHT = {
@@ -358,8 +363,11 @@ class Pilot(Boards):
         except InputError as error:
             return None, None, str(error)
         found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
-        if asked.structure.soft:
-            asked.numbers[-2] = SOFT_LAST
+        its = asked.structure
+        if its.soft:
+            asked.numbers[-2] = SOFT_LAST if its.mounted or its.gates else WALL
+        if its.box:
+            asked.numbers[its.hard + 1 : its.hard + WALLS] += MARGIN * np.repeat([1, -1], 3)
         return (found if found else None), asked, found.reason
 
 

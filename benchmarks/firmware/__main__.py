@@ -1,6 +1,6 @@
 """Flights of the exported app in the Crazyflie's own firmware, on this machine: starts, and what may go wrong.
 
-    python -m benchmarks.firmware ../crazyflie-firmware --starts 200
+    python -m benchmarks.firmware ../crazyflie-firmware --starts 200 [--sensors mocap]
     python -m benchmarks.firmware ../crazyflie-firmware --scenarios
     python -m benchmarks.firmware ../crazyflie-firmware --blind
     python -m benchmarks.firmware ../crazyflie-firmware --build
@@ -57,12 +57,13 @@ def main() -> None:
         parser.add_argument(f"--{name}", action="store_true")
     parser.add_argument("--seed", type=int, default=2024)
     parser.add_argument("--plant", default="rotors")
+    parser.add_argument("--sensors", default="perfect")
     given = parser.parse_args()
     if given.build:
         print("\n".join(built_by_readme(given.path.resolve())))
         return
     with tempfile.TemporaryDirectory() as place:
-        library, vehicle = exported(given.path.resolve(), Path(place) / "app", given.airframe)
+        library, vehicle = exported(given.path.resolve(), Path(place) / "app", given.airframe, given.sensors)
         if given.starts:
             for line in table(fly_starts(library, vehicle, given)):
                 print(line, flush=True)
@@ -74,10 +75,10 @@ def main() -> None:
                 print(told(name, *compared(name, library, vehicle)), flush=True)
 
 
-def exported(firmware: Path, app: Path, airframe: str) -> tuple[Path, fp.Vehicle]:
+def exported(firmware: Path, app: Path, airframe: str, sensors: str = "perfect") -> tuple[Path, fp.Vehicle]:
     """The library of the firmware with a fresh app, and the vehicle that it flies."""
     vehicle = fp.vehicle(VEHICLES[airframe])
-    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe)
+    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe, sensors=sensors)
     return build(firmware, app, airframe), limit_rotors(vehicle, AIRFRAMES[airframe])
 
 

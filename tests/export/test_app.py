@@ -13,7 +13,7 @@ from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from benchmarks.app_cost import APP, HEADERS, LAWS, exported, size, stack
+from benchmarks.app_cost import HEADERS, LAWS, exported, size, stack
 from flypend.board.program import initial_memory
 from flypend.export import fits, records, vectors
 from flypend.export.app import AIRFRAMES, limit_rotors
@@ -21,6 +21,7 @@ from flypend.export.interface import interface
 from flypend.export.write import core
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
+from flypend.plants.sensors import sensors_called
 
 LAW = fp.laws.inverted()
 VEHICLE = limit_rotors(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
@@ -134,7 +135,8 @@ class Firmware:
 @pytest.fixture(scope="module")
 def library(folder):
     flags = ("-std=gnu11", "-shared", "-fPIC", "-I.", f"-I{STANDINS / 'crazyflie'}", "-Wno-pedantic")
-    return build(folder, (*APP, STANDINS / "fly_crazyflie.c"), "app.so", flags=flags)
+    sources = (*sorted(folder.glob("flypend_*.c")), STANDINS / "fly_crazyflie.c")
+    return build(folder, sources, "app.so", flags=flags)
 
 
 @pytest.fixture
@@ -412,13 +414,14 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 
 @pytest.mark.parametrize("name", LAWS)
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
-    used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
+    used, flown = stack(exported(name, fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
     assert 150 < used < fits.BUDGETS["crazyflie"].most["bytes of stack"]
-    made = interface(LAWS[name](), VEHICLE)
-    told = fits.compiled(*(core(made, "float")[f"flypend_law.{end}"] for end in "hc"), "a Crazyflie")
+    make, sensors = LAWS[name]
+    made = interface(make(), VEHICLE, 500.0, sensors_called(sensors))
+    told = fits.compiled(tuple(core(made, "float").items()), "a Crazyflie")
     assert 0 <= told["bytes of stack"] - used < 40
-    flash, memory = size(tmp_path / "app", APP)
+    flash, memory = size(tmp_path / "app")
     assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
     assert told["bytes of RAM"] == pytest.approx(memory, rel=0.05)
 

@@ -136,9 +136,10 @@ def statements(
     """C statements that compute `program`: `inputs[i][j]` is the C expression of entry j of input vector i.
 
     `outputs[i][j]` receives entry j of output i, after everything has been computed; results that are inputs as they
-    came are copied first, in order (`copies`). What is needed later is kept in the array `SCRATCH` of `scratch(program).size` numbers. That and the inputs should
-    be volatile, or a compiler keeps copies on the stack. Products with constant matrices are calls of the functions of
-    `layers`. What is selected is computed in any case: no branch decides how long a call takes.
+    came are copied first, in order (`copies`). What is needed later is kept in the array `SCRATCH` of
+    `scratch(program).size` numbers. That and the inputs should be volatile, or a compiler keeps copies on the stack.
+    Products with constant matrices are calls of the functions of `layers`. What is selected is computed in any case: no
+    branch decides how long a call takes.
 
     Raises InputError for an operation that needs more of the C library than the square root.
     """

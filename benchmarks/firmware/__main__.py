@@ -23,10 +23,13 @@ Build: processor time of the commands of the app's README, from the export to a 
 from __future__ import annotations
 
 import argparse
+import os
 import resource
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -103,9 +106,11 @@ def starts(count: int, seed: int) -> dict[str, list[fp.State]]:
 
 def fly_starts(library, vehicle, given):
     """For each kind: whether each flight succeeded and its excursion, m, in the firmware and with ideal mixing."""
-    for kind, batch in starts(given.starts, given.seed).items():
-        rows = [in_firmware(library, vehicle, start, given.plant) for start in batch]
-        yield kind, *(np.array([(row[i], row[i + 1]) for row in rows]).T for i in (0, 2))
+    fly = partial(in_firmware, library, vehicle, plant=given.plant)
+    with ProcessPoolExecutor(os.cpu_count()) as pool:
+        for kind, batch in starts(given.starts, given.seed).items():
+            rows = list(pool.map(fly, batch))
+            yield kind, *(np.array([(row[i], row[i + 1]) for row in rows]).T for i in (0, 2))
 
 
 def in_firmware(library, vehicle, start, plant="rotors"):

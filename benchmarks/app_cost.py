@@ -4,9 +4,9 @@
 
 Compiled with the firmware's flags and run on QEMU's Cortex-M4F. A law is the controller of `flypend export-app`, in
 stand-ins for the firmware: its observers of pose and rod, its safety rules and the law, "with estimator" that for
-motion capture; without the firmware's own PID controller. "tracked plan" is `flypend_plan_command`, which is no part of
-the app. Stack: the deepest of all calls, painted before each. Cycles: the dearest call (benchmarks/cortex). Flash and
-RAM: of the objects, code with constants and static memory.
+motion capture, "with plan" a tracked plan before the law; without the firmware's own PID controller. Stack: the deepest
+of all calls, painted before each. Cycles: the dearest call (benchmarks/cortex). Flash and RAM: of the objects, code
+with constants and static memory.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from pathlib import Path
 
 import flypend as fp
 from benchmarks import cortex
-from flypend.export.plan import export_plan
 
 STANDINS = Path(__file__).parents[1] / "tests" / "export" / "standins"
 HEADERS = (
@@ -27,56 +26,16 @@ HEADERS = (
 )  # fmt: skip
 FLAGS = (*cortex.FLAGS, "-Os", "-fno-math-errno", "-ffunction-sections", "-fdata-sections", "-std=gnu11")
 FEW = 212  # ms in the app, the last of them under the law: each instruction of them is traced
-LAWS = {  # and the suite of sensors of its estimator
-    "inverted": (fp.laws.inverted, "perfect"),
-    "light": (lambda: fp.laws.inverted(form="light"), "perfect"),
-    "corrected": (fp.laws.corrected, "perfect"),
-    "lqr": (fp.laws.lqr, "perfect"),
-    "learned": (fp.laws.learned, "perfect"),
-    "almost_global": (fp.laws.almost_global, "perfect"),
-    "inverted, with estimator": (fp.laws.inverted, "mocap"),
+LAWS = {  # and what `export_app` takes beside them
+    "inverted": (fp.laws.inverted, {}),
+    "light": (lambda: fp.laws.inverted(form="light"), {}),
+    "corrected": (fp.laws.corrected, {}),
+    "lqr": (fp.laws.lqr, {}),
+    "learned": (fp.laws.learned, {}),
+    "almost_global": (fp.laws.almost_global, {}),
+    "inverted, with estimator": (fp.laws.inverted, {"sensors": "mocap"}),
+    "inverted, with plan": (fp.laws.inverted, {"planned": True}),
 }
-PAINTED = """
-#include <stdint.h>
-#include <string.h>
-#include "flypend_plan.h"
-{memory}
-static void say(const char *text)
-{{
-    register uint32_t what __asm__("r0") = 4; /* SYS_WRITE0 */
-    register const char *which __asm__("r1") = text;
-    __asm__ volatile("bkpt 0xab" : "+r"(what) : "r"(which) : "memory");
-}}
-__attribute__((noinline)) static uint32_t used(void)
-{{
-    volatile uint32_t *here;
-    uint32_t depth = 4096;
-    __asm__ volatile("mov %0, sp" : "=r"(here));
-    for (int i = 1; i <= 4096; i++) {{
-        here[-i] = 0xa5a5a5a5U;
-    }}
-    (void)flypend_plan_command(t, state, rotors, command);
-    while ((depth > 0) && (here[-(int)depth] == 0xa5a5a5a5U)) {{
-        depth--;
-    }}
-    return 4 * depth;
-}}
-int main(void)
-{{
-    char text[] = "stack 000000 flown 1\\n";
-    uint32_t most = 0;
-    for (int i = 0; i < 5; i++) {{
-        const uint32_t now = used();
-        most = (now > most) ? now : most;
-    }}
-    for (int i = 11; i > 5; i--) {{
-        text[i] = (char)('0' + most % 10);
-        most /= 10;
-    }}
-    say(text);
-    return 0;
-}}
-"""
 
 
 def main() -> None:
@@ -89,14 +48,12 @@ def main() -> None:
             app = exported(name, vehicle, Path(folder))
             cells = stack(app)[0], app_cycles(app), *size(app)
             print(f"| {name} | {' | '.join(map(str, cells))} |", flush=True)
-    with tempfile.TemporaryDirectory() as folder:
-        print(f"| tracked plan | {' | '.join(map(str, planned(vehicle, Path(folder))))} |", flush=True)
 
 
 def exported(name: str, vehicle: fp.Vehicle, folder: Path) -> Path:
     """The app of a law of LAWS among stand-ins for the firmware."""
-    make, sensors = LAWS[name]
-    fp.export_app("crazyflie", make(), vehicle, folder / "app", height=4.0, sensors=sensors)  # some do not swing up
+    make, options = LAWS[name]
+    fp.export_app("crazyflie", make(), vehicle, folder / "app", height=4.0, **options)  # some do not swing up
     for header in HEADERS:
         (folder / "app" / header).write_text('#include "firmware.h"\n')
     return folder / "app"
@@ -114,30 +71,6 @@ def app_cycles(app: Path) -> int:
     _, flown = stack(app, f"-DROUNDS={FEW}", "-DDEPTH=16U")
     assert flown > 2
     return max(cortex.cycles(app / "stack.elf", "controllerOutOfTree"))
-
-
-def planned(vehicle: fp.Vehicle, folder: Path) -> tuple[int, int, int, int]:
-    """Stack, cycles, flash and RAM of a plan from hanging with its tracking gains."""
-    start = fp.State(y=(0, 0, -1.0))
-    export_plan(fp.plan(vehicle, start), folder / "plan", precision="float")
-    state = ", ".join(f"{float(value)!r}f" for value in start.packed())
-    memory = f"static const float state[24] = {{{state}}};\nstatic float rotors[4], command[4], t = 0.113f;\n"
-    where = folder / "plan"
-    (where / "main.c").write_text(PAINTED.format(memory=memory))
-    words = [
-        *FLAGS,
-        "-I.",
-        *cortex.LINKED,
-        "main.c",
-        *_sources(where),
-        cortex.HERE / "start.c",
-        "-lm",
-        "-o",
-        "main.elf",
-    ]
-    _run("arm-none-eabi-gcc", *words, folder=where)
-    elf = where / "main.elf"
-    return _painted(elf)[0], max(cortex.cycles(elf, "flypend_plan_command")), *size(where)
 
 
 def size(folder: Path) -> tuple[int, int]:

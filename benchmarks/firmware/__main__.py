@@ -1,6 +1,6 @@
 """Flights of the exported app in the Crazyflie's own firmware, on this machine: starts, and what may go wrong.
 
-    python -m benchmarks.firmware ../crazyflie-firmware --starts 200 [--sensors mocap]
+    python -m benchmarks.firmware ../crazyflie-firmware --starts 200 [--sensors mocap | --plan]
     python -m benchmarks.firmware ../crazyflie-firmware --scenarios
     python -m benchmarks.firmware ../crazyflie-firmware --blind
     python -m benchmarks.firmware ../crazyflie-firmware --build
@@ -61,12 +61,15 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=2024)
     parser.add_argument("--plant", default="rotors")
     parser.add_argument("--sensors", default="perfect")
+    parser.add_argument("--plan", action="store_true")
     given = parser.parse_args()
     if given.build:
         print("\n".join(built_by_readme(given.path.resolve())))
         return
     with tempfile.TemporaryDirectory() as place:
-        library, vehicle = exported(given.path.resolve(), Path(place) / "app", given.airframe, given.sensors)
+        library, vehicle = exported(
+            given.path.resolve(), Path(place) / "app", given.airframe, given.sensors, planned=given.plan
+        )
         if given.starts:
             for line in table(fly_starts(library, vehicle, given)):
                 print(line, flush=True)
@@ -78,10 +81,12 @@ def main() -> None:
                 print(told(name, *compared(name, library, vehicle)), flush=True)
 
 
-def exported(firmware: Path, app: Path, airframe: str, sensors: str = "perfect") -> tuple[Path, fp.Vehicle]:
+def exported(
+    firmware: Path, app: Path, airframe: str, sensors: str = "perfect", *, planned: bool = False
+) -> tuple[Path, fp.Vehicle]:
     """The library of the firmware with a fresh app, and the vehicle that it flies."""
     vehicle = fp.vehicle(VEHICLES[airframe])
-    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe, sensors=sensors)
+    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe, sensors=sensors, planned=planned)
     return build(firmware, app, airframe), limit_rotors(vehicle, AIRFRAMES[airframe])
 
 

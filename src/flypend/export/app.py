@@ -19,12 +19,14 @@ from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import Interface, interface
+from flypend.export.plan import files as plan_files
 from flypend.export.source import initializer
 from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import staging
 from flypend.laws import BoundLaw, Law
-from flypend.model import Vehicle
+from flypend.model import State, Vehicle
+from flypend.planning.planner import plan
 from flypend.plants.sensors import Sensors, sensors_called
 
 FILES: Mapping[str, tuple[str, ...]] = {
@@ -79,6 +81,7 @@ def export_app(
     rate: float | None = None,
     height: float | None = None,
     sensors: Sensors | str | None = None,
+    planned: bool = False,
 ) -> Vehicle:
     """Write an app for the firmware of `target` that flies `law` on `vehicle`.
 
@@ -105,6 +108,9 @@ def export_app(
     sensors : Sensors or str, optional
         For a Crazyflie: what poses, gyroscope and accelerometer are like, or the name of a suite. The law then flies on
         the estimator for them, as `export_c` has it. Default "perfect": on an observer of the pose and one of the rod.
+    planned : bool
+        For a Crazyflie: plan a swing-up of least excursion from rest with the rod hanging, and let the law fly where it
+        ends, or where rod or pivot are too far from it.
 
     Returns
     -------
@@ -114,9 +120,10 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, for a vehicle that is no such airframe, for an airframe or sensors with PX4,
-        for sensors other than those of a Crazyflie, for a law that does not swing the rod up unless a height is given,
-        and for one that takes too many cycles, or too much memory (`fits`).
+        As `export_c`, for another target, for a vehicle that is no such airframe, for an airframe, sensors or a plan
+        with PX4, for sensors other than those of a Crazyflie or with a plan, for a plan that fails, for a law that does
+        not swing the rod up unless a height is given, and for one that takes too many cycles, or too much memory
+        (`fits`).
     """
     errors.one_of("target", target, tuple(FILES))
     if not isinstance(vehicle, Vehicle):
@@ -126,17 +133,17 @@ def export_app(
         errors.number("height", height, at_least=0.5, at_most=100, unit="m")
     read = sensors_called(sensors, "sensors")
     if target == "px4":
-        if airframe is not None:
-            raise InputError("airframe", "none for px4, whose parameters CA_ROTOR hold it", repr(airframe))
-        if read is not None:
-            raise InputError("sensors", "none for px4, which has an estimator of its own", repr(sensors))
+        _check_px4(airframe, sensors if read else None, planned)
         flown, own = vehicle, _px4(vehicle, rate)
     else:
+        _check_sensors(read, planned)
         flown, own = _crazyflie(vehicle, rate, airframe)
     made = interface(law, flown, rate, read)
-    if target == "crazyflie":
-        own |= _computer(made, rate)
     texts = core(made, "float")
+    if planned:
+        texts |= plan_files(plan(flown, State(y=(0, 0, -1))), "float")
+    if target == "crazyflie":
+        own |= _computer(made, rate, planned)
     taken = check_fits(made, texts, BUDGETS[target])
     room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
     values = values_of(made, "float") | {
@@ -184,13 +191,11 @@ def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Veh
     }
 
 
-def _computer(made: Interface, rate: float) -> dict[str, str]:
-    """What the Crazyflie's templates take of the flight computer, with an estimator or without."""
+def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
+    """What the Crazyflie's templates take of the flight computer, with an estimator or without, or behind a plan."""
     units, record, latest, told = ["flypend_app", "flypend_law", "flypend_frames"], records.MEASUREMENT, LATEST, {}
     if made.sensing is not None:
         sensors = made.sensing.sensors
-        if set(sensors.streams) != set(STREAMS):
-            raise InputError("sensors", f"{', '.join(STREAMS)}, and nothing else", ", ".join(sensors.streams))
         history = History.of(sensors, 1 / rate)
         latest = (
             min(history.oldest(name) for name in STREAMS[:3]) - REACH - 1 / rate
@@ -201,15 +206,36 @@ def _computer(made: Interface, rate: float) -> dict[str, str]:
             "tell_pose": "    tell_pose(position, turned, age);\n",
             "tell_rod": "    tell_rod(end->from_pivot, age);\n",
         }
-    name = "measured" if made.sensing is None else "sensed"
+    units += ["flypend_plan"] * planned
+    parts = ["measured" if made.sensing is None else "sensed", *["planned"] * planned]
     return {"tell_imu": "", "tell_pose": "", "tell_rod": "", **told} | {
-        "computer": fill(f"crazyflie/{name}.c", {}),
+        "computer": "".join(fill(f"crazyflie/{part}.c", {"period": literal(1 / rate, "float")}) for part in parts),
+        "flown": "planned" if planned else "computer",
+        "plan_header": '#include "flypend_plan.h"\n' * planned,
         "computer_header": "flypend_law.h" if made.sensing is None else "flypend_sensors.h",
         "state_read": record.name,
         "zero_state": initializer(record, [0.0] * record.length, "float"),
         "latest": str(math.floor(1e3 * latest)),
         "objects": "".join(f"obj-y += {unit}.o\n" for unit in units),
     }
+
+
+def _check_sensors(sensors: Sensors | None, planned: bool) -> None:
+    if sensors is None:
+        return
+    if set(sensors.streams) != set(STREAMS):
+        raise InputError("sensors", f"{', '.join(STREAMS)}, and nothing else", ", ".join(sensors.streams))
+    if planned:  # the period in which one begins after the other would take too many cycles
+        raise InputError("planned", "False with an estimator", "True")
+
+
+def _check_px4(airframe: str | None, sensors: Sensors | str | None, planned: bool) -> None:
+    if airframe is not None:
+        raise InputError("airframe", "none for px4, whose parameters CA_ROTOR hold it", repr(airframe))
+    if sensors is not None:
+        raise InputError("sensors", "none for px4, which has an estimator of its own", repr(sensors))
+    if planned:
+        raise InputError("planned", "False for px4, whose module flies a law alone", "True")
 
 
 def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:

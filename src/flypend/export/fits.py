@@ -110,7 +110,7 @@ def compiled(texts: tuple[tuple[str, str], ...], of: str) -> dict[str, int]:
         sizes = _run(folder, "arm-none-eabi-size", *(f"{name}.o" for name in names)).splitlines()[1:]
         text, data, bss = (sum(int(line.split()[i]) for line in sizes) for i in range(3))
         graph = "".join((folder / f"{name}.ci").read_text(encoding="utf-8") for name in names)
-        depth = deepest(graph, f"flypend_{computer}_step")
+        depth = max(deepest(graph, entry) for entry in (f"flypend_{computer}_step", "flypend_plan_command"))
     return {
         "bytes of stack": budget.stack + depth,
         "bytes of flash": budget.code + text + data,

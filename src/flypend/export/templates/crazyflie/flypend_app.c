@@ -32,7 +32,7 @@
 
 #include "flypend_frames.h"
 #include "$computer_header"
-
+$plan_header
 #if (RATE_MAIN_LOOP % $rate) != 0
 #error "the stabilizer loop is no multiple of the control rate that the code was exported for"
 #endif
@@ -365,9 +365,9 @@ static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors)
     static flypend_path path;
     flypend_rotors rotors;
     read_path(setpoint, &path);
-    status = (uint8_t)step_computer(sensors, &path, &rotors);
+    status = (uint8_t)step_$flown(sensors, &path, &rotors);
     if (status == (uint8_t)FLYPEND_NOT_BEGUN) { /* damaged: it gives a safe command for a period, and begins again */
-        (void)begin_computer(sensors, &rotors);
+        (void)begin_$flown(sensors, &rotors);
         status = FLYPEND_OK;
     }
     for (int i = 0; i < 4; i++) {
@@ -393,7 +393,7 @@ static bool begin(const setpoint_t *setpoint, const sensorData_t *sensors)
     for (int i = 0; i < 4; i++) {
         now.force[i] = isfinite(spinning[i]) ? spinning[i] : 0;
     }
-    return (begin_computer(sensors, &now) == FLYPEND_OK) && fly(setpoint, sensors);
+    return (begin_$flown(sensors, &now) == FLYPEND_OK) && fly(setpoint, sensors);
 }
 
 void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,

@@ -20,6 +20,7 @@ from flypend.export import records
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
+from flypend.export.sensors import describe
 from flypend.export.source import initializer
 from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
@@ -193,23 +194,31 @@ def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Veh
 
 def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
     """What the Crazyflie's templates take of the flight computer, with an estimator or without, or behind a plan."""
-    units, record, latest, told = ["flypend_app", "flypend_law", "flypend_frames"], records.MEASUREMENT, LATEST, {}
+    units, record, latest = ["flypend_app", "flypend_law", "flypend_frames"], records.MEASUREMENT, LATEST
+    beside, told = "", dict.fromkeys(("tell_imu", "tell_pose", "tell_rod"), "")
     if made.sensing is not None:
         sensors = made.sensing.sensors
         history = History.of(sensors, 1 / rate)
-        latest = (
-            min(history.oldest(name) for name in STREAMS[:3]) - REACH - 1 / rate
-        )  # it waits for the law's next step
+        # Arrived, a pose waits for the law's next step.
+        latest = min(history.oldest(name) for name in STREAMS[:3]) - REACH - 1 / rate
         units, record = [*units, "flypend_sensors"], records.STATE
+        beside = (
+            f"- **How good they are**: the law's estimator reckons with {'; '.join(describe(sensors))} (SI units).\n"
+        )
         told = {
             "tell_imu": "    tell_imu(sensors);\n",
             "tell_pose": "    tell_pose(position, turned, age);\n",
             "tell_rod": "    tell_rod(end->from_pivot, age);\n",
         }
-    units += ["flypend_plan"] * planned
+    if planned:
+        units = [*units, "flypend_plan"]
+        beside = (
+            "- **That the rod hangs at rest**: then a swing-up follows a plan; else, or thrown off it, the law flies.\n"
+        )
     parts = ["measured" if made.sensing is None else "sensed", *["planned"] * planned]
-    return {"tell_imu": "", "tell_pose": "", "tell_rod": "", **told} | {
+    return told | {
         "computer": "".join(fill(f"crazyflie/{part}.c", {"period": literal(1 / rate, "float")}) for part in parts),
+        "beside": beside,
         "flown": "planned" if planned else "computer",
         "plan_header": '#include "flypend_plan.h"\n' * planned,
         "computer_header": "flypend_law.h" if made.sensing is None else "flypend_sensors.h",

@@ -51,12 +51,13 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
         "null": " || (reference == NULL)" if made.follows else "",
         "fill": fill,
         "command_delay": f"{sensing.sensors.command_delay or 0.0:.3g}",
-        "sensor_table": "\n".join(f" *   {line}" for line in _table(sensing.sensors)),
+        "sensor_table": "\n".join(f" *   {line}" for line in describe(sensing.sensors)),
         "start": _start(sensing.sensors),
     }
 
 
-def _table(sensors: Sensors) -> list[str]:
+def describe(sensors: Sensors) -> list[str]:
+    """Rate, noise and latency of each stream, in words."""
     return [
         f"{name}: {s.rate:g} Hz, noise {s.noise:g}, latency {s.latency:g} s"
         + (f", steps {s.quantisation:.4g}" if s.quantisation else "")

@@ -101,8 +101,8 @@ def compiled(texts: tuple[tuple[str, str], ...], of: str) -> dict[str, int]:
     header = "flypend_sensors.h" if computer == "sensors" else "flypend_law.h"
     with TemporaryDirectory() as place:
         folder = Path(place)
-        for name, text in texts:
-            (folder / name).write_text(text, encoding="utf-8")
+        for name, content in texts:
+            (folder / name).write_text(content, encoding="utf-8")
         (folder / "memory.c").write_text(f'#include "{header}"\nflypend_{computer} held;\n', encoding="utf-8")
         names.append("memory")
         flags = (*budget.processor, *FLAGS, "-fcallgraph-info=su")

@@ -86,8 +86,9 @@ def export_app(
     check_writable(out)
     errors.one_of("--sensors", sensors, SUITES)
     machine, chosen = model.vehicle(vehicle), _symbolic(law)
-    options = {"airframe": airframe, "rate": rate, "height": height, "sensors": sensors, "planned": planned}
-    flown = write(target, chosen, machine, out, **options)
+    flown = write(
+        target, chosen, machine, out, airframe=airframe, rate=rate, height=height, sensors=sensors, planned=planned
+    )
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")

@@ -23,6 +23,7 @@ from pathlib import Path
 import numpy as np
 
 import flypend as fp
+from benchmarks.ticking import Ticking
 from flypend import geometry
 from flypend.plants.actuation import make_engine
 from flypend.plants.plant import as_sampled
@@ -64,7 +65,7 @@ def parameters() -> dict[str, float]:
     return found
 
 
-class Flown:
+class Flown(Ticking):
     """A vehicle under PX4, from power-up on the ground, and the pilot.
 
     Parameters
@@ -74,6 +75,8 @@ class Flown:
     seed : int
         Of the noise.
     """
+
+    period = TICK
 
     def __init__(self, build: Path, seed: int) -> None:
         from pymavlink import mavutil
@@ -222,14 +225,6 @@ class Flown:
                 self.armed = bool(message.base_mode & 128)
             elif kind in ("STATUSTEXT", "COMMAND_ACK"):
                 self.told.append(f"{self.ticks * TICK:.2f} {message}")
-
-    def fly(self, duration: float, until=lambda: False) -> bool:
-        """Fly for `duration` (s), or `until` something; whether that came."""
-        for _ in range(round(duration / TICK)):
-            if until():
-                return True
-            self.tick()
-        return until()
 
 
 # Flights --------------------------------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 """Flights of the exported app in the Crazyflie's own firmware, on this machine: starts, and what may go wrong.
 
-    python -m benchmarks.firmware ../crazyflie-firmware --starts 200
+    python -m benchmarks.firmware ../crazyflie-firmware --starts 200 [--sensors mocap | --plan]
     python -m benchmarks.firmware ../crazyflie-firmware --scenarios
     python -m benchmarks.firmware ../crazyflie-firmware --blind
     python -m benchmarks.firmware ../crazyflie-firmware --build
@@ -23,10 +23,13 @@ Build: processor time of the commands of the app's README, from the export to a 
 from __future__ import annotations
 
 import argparse
+import os
 import resource
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -57,12 +60,16 @@ def main() -> None:
         parser.add_argument(f"--{name}", action="store_true")
     parser.add_argument("--seed", type=int, default=2024)
     parser.add_argument("--plant", default="rotors")
+    parser.add_argument("--sensors", default="perfect")
+    parser.add_argument("--plan", action="store_true")
     given = parser.parse_args()
     if given.build:
         print("\n".join(built_by_readme(given.path.resolve())))
         return
     with tempfile.TemporaryDirectory() as place:
-        library, vehicle = exported(given.path.resolve(), Path(place) / "app", given.airframe)
+        library, vehicle = exported(
+            given.path.resolve(), Path(place) / "app", given.airframe, given.sensors, planned=given.plan
+        )
         if given.starts:
             for line in table(fly_starts(library, vehicle, given)):
                 print(line, flush=True)
@@ -74,10 +81,12 @@ def main() -> None:
                 print(told(name, *compared(name, library, vehicle)), flush=True)
 
 
-def exported(firmware: Path, app: Path, airframe: str) -> tuple[Path, fp.Vehicle]:
+def exported(
+    firmware: Path, app: Path, airframe: str, sensors: str = "perfect", *, planned: bool = False
+) -> tuple[Path, fp.Vehicle]:
     """The library of the firmware with a fresh app, and the vehicle that it flies."""
     vehicle = fp.vehicle(VEHICLES[airframe])
-    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe)
+    fp.export_app("crazyflie", LAW_FLOWN, vehicle, app, airframe=airframe, sensors=sensors, planned=planned)
     return build(firmware, app, airframe), limit_rotors(vehicle, AIRFRAMES[airframe])
 
 
@@ -102,9 +111,11 @@ def starts(count: int, seed: int) -> dict[str, list[fp.State]]:
 
 def fly_starts(library, vehicle, given):
     """For each kind: whether each flight succeeded and its excursion, m, in the firmware and with ideal mixing."""
-    for kind, batch in starts(given.starts, given.seed).items():
-        rows = [in_firmware(library, vehicle, start, given.plant) for start in batch]
-        yield kind, *(np.array([(row[i], row[i + 1]) for row in rows]).T for i in (0, 2))
+    fly = partial(in_firmware, library, vehicle, plant=given.plant)
+    with ProcessPoolExecutor(os.cpu_count()) as pool:
+        for kind, batch in starts(given.starts, given.seed).items():
+            rows = list(pool.map(fly, batch))
+            yield kind, *(np.array([(row[i], row[i + 1]) for row in rows]).T for i in (0, 2))
 
 
 def in_firmware(library, vehicle, start, plant="rotors"):

@@ -36,7 +36,6 @@ INCLUDES = (
     "src/utils/interface", "src/utils/interface/kve", "src/utils/interface/lighthouse", "src/utils/interface/tdoa",
     "vendor/libdw1000/inc", "vendor/CMSIS/CMSIS/Core/Include", "vendor/CMSIS/CMSIS/DSP/Include",
 )  # fmt: skip
-APP = ("flypend_app.c", "flypend_law.c", "flypend_frames.c")
 DEFINED = ("-D__FPU_PRESENT=1", "-DCRAZYFLIE_FW", "-D__fp16=_Float16")
 FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-fno-strict-aliasing", "-fno-math-errno", "-w", *DEFINED)
 
@@ -50,7 +49,7 @@ def build(firmware: Path, app: Path, airframe: str) -> Path:
     folder.mkdir(exist_ok=True)
     (folder / "compensation.c").write_text(_compensation((firmware / "src/drivers/src/motors.c").read_text()))
     includes = searched(firmware, app, app / "build/include/generated")
-    sources = [*(firmware / name for name in SOURCES), *(app / name for name in APP), HOST / "host.c"]
+    sources = [*(firmware / name for name in SOURCES), *sorted(app.glob("flypend_*.c")), HOST / "host.c"]
     made = []
     for source in [*sources, folder / "compensation.c"]:
         done = folder / f"{Path(source).stem}.o"

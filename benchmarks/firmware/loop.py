@@ -14,6 +14,7 @@ from scipy.interpolate import CubicHermiteSpline
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
+from benchmarks.ticking import Ticking
 from flypend import geometry
 from flypend.plants.actuation import make_engine
 from flypend.plants.plant import as_sampled
@@ -91,7 +92,7 @@ class Firmware:
         return self._c.host_said().decode()
 
 
-class Vehicle:
+class Vehicle(Ticking):
     """A vehicle under the firmware, from power-up on a rig that holds it level, with the rod hanging.
 
     Parameters
@@ -105,6 +106,8 @@ class Vehicle:
     home : (3,)
         Where the rig is, and where it is asked to hover, m.
     """
+
+    period = TICK
 
     def __init__(self, library: Path, vehicle: fp.Vehicle, plant="rotors", *, home=HOME) -> None:
         self.vehicle, self.firmware, self.world = vehicle, Firmware(library), _World()
@@ -177,14 +180,6 @@ class Vehicle:
     def flies(self) -> int:
         """What flies: CUT, PID, LAW or LANDING."""
         return int(self.firmware.log("flypend.flies"))
-
-    def fly(self, duration: float, until=lambda: False) -> bool:
-        """Fly for `duration` (s), or `until` something; whether that came."""
-        for _ in range(round(duration / TICK)):
-            if until():
-                return True
-            self.tick()
-        return until()
 
     def hold(self, duration: float) -> None:
         """Stay on the rig."""

@@ -10,6 +10,7 @@ from cbuild import build
 import flypend as fp
 from flypend.compile.c99 import (
     SCRATCH,
+    call,
     function,
     inputs_used_by,
     literal,
@@ -116,6 +117,33 @@ def test_a_constant_below_zero_keeps_its_sign_behind_a_minus():
         "const flypend_real v2 = -v1;",
         "y = v2;",
     ]
+
+
+def _moving(order):
+    """A program that copies entries in this order, and computes one of them first."""
+    x = ca.SX.sym("x", len(order))
+    return lower(ca.Function("move", [x], [ca.vertcat(2 * x[0], x[order])]))
+
+
+def test_what_is_only_copied_is_not_held_on_the_stack():
+    program = _moving([1, 0])
+    assert statements(program, [["x[0]", "x[1]"]], [["y[0]", "y[1]", "y[2]"]], "double") == [
+        "const flypend_real v0 = x[0];",
+        "const flypend_real v1 = v0 + v0;",
+        "y[1] = x[1];",
+        "y[2] = v0;",
+        "y[0] = v1;",
+    ]
+    text = function(_moving(list(range(300))[::-1]), "double")
+    assert text.count("const flypend_real v") < 5
+
+
+def test_an_output_in_place_of_an_input_is_refused_where_a_copy_would_read_what_was_written():
+    assert call(_moving([1, 0]), ["x"], ["y"]) == "move(x, y);"
+    later = _moving([1, 2, 0])  # x[1] takes x[1], x[2] takes x[2]; x[3] takes x[0], which nothing has overwritten
+    assert call(later, ["x"], ["x"]) == "move(x, x);"
+    with pytest.raises(ValueError, match=r"move copies x\[1\], which it has overwritten"):
+        call(_moving([0, 1, 2]), ["x"], ["x"])
 
 
 def test_a_routine_calls_its_programs_on_stretches_of_memory(tmp_path):

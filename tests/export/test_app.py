@@ -13,7 +13,7 @@ from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
-from benchmarks.app_cost import APP, HEADERS, LAWS, exported, size, stack
+from benchmarks.app_cost import HEADERS, LAWS, exported, size, stack
 from flypend.board.program import initial_memory
 from flypend.export import fits, records, vectors
 from flypend.export.app import AIRFRAMES, limit_rotors
@@ -21,6 +21,7 @@ from flypend.export.interface import interface
 from flypend.export.write import core
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
+from flypend.plants.sensors import sensors_called
 
 LAW = fp.laws.inverted()
 VEHICLE = limit_rotors(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
@@ -131,10 +132,15 @@ class Firmware:
         self.tick += self.tick % 2 + 1
 
 
+def _library(folder):
+    flags = ("-std=gnu11", "-shared", "-fPIC", "-I.", f"-I{STANDINS / 'crazyflie'}", "-Wno-pedantic")
+    sources = (*sorted(folder.glob("flypend_*.c")), STANDINS / "fly_crazyflie.c")
+    return build(folder, sources, "app.so", flags=flags)
+
+
 @pytest.fixture(scope="module")
 def library(folder):
-    flags = ("-std=gnu11", "-shared", "-fPIC", "-I.", f"-I{STANDINS / 'crazyflie'}", "-Wno-pedantic")
-    return build(folder, (*APP, STANDINS / "fly_crazyflie.c"), "app.so", flags=flags)
+    return _library(folder)
 
 
 @pytest.fixture
@@ -358,6 +364,54 @@ def test_parameters_that_the_law_cannot_fly_with_are_refused_at_upload(firmware)
     assert firmware.upload("rodLength", 0.6) == pytest.approx(0.45)  # it flies
 
 
+# With an estimator, and with a plan -----------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module", params=[{"sensors": "mocap"}, {"planned": True}], ids=["estimator", "plan"])
+def more(request, tmp_path_factory):
+    """The options of an app, and its library."""
+    place = tmp_path_factory.mktemp("more")
+    fp.export_app("crazyflie", LAW, fp.vehicle("crazyflie"), place, height=HEIGHT, **request.param)
+    for name in HEADERS:
+        (place / name).write_text('#include "firmware.h"\n')
+    return request.param, _library(place)
+
+
+def test_an_app_with_more_before_the_law_keeps_its_rules(more):
+    options, library = more
+    firmware, state = Firmware(library), _state()
+    assert firmware.upload("late", 11.0) == 11  # the latency of the suite, and the step that a pose waits for
+    assert firmware.upload("late", 12.0) == (11 if "sensors" in options else 12)
+    firmware.upload("late", 0.0)
+    firmware.begin(state)
+    for _ in range(30):
+        firmware.see(state)
+        mode, forces = firmware.fly(state, steps=10)
+        assert mode == FORCE
+        assert firmware.log("status") == 0
+        assert np.all((forces >= 0) & (forces <= 1))
+    assert forces.max() > 0
+    assert firmware.fly(state, steps=102)[0] == LEGACY
+    assert (firmware.log("flies"), firmware.log("why")) == (LANDING, NO_BOB)
+    assert np.array_equal(firmware.fly(state, modes=(DISABLE,) * 3)[1], np.zeros(4))
+
+
+def test_a_plan_flies_from_where_the_rod_hangs_and_else_the_law_to_the_bit(more, library):
+    options, with_more = more
+    if "planned" not in options:
+        pytest.skip("the app with an estimator has no plan")
+    hanging = fp.State(x=(0.3, -0.2, 4.0), y=(0, 0, -1.0))
+    for state, same in ((_state(), True), (hanging, False)):
+        flights = []
+        for flown in (library, with_more):
+            firmware = Firmware(flown)
+            firmware.begin(state)
+            flights.append([firmware.fly(state, setpoint=state.x) for _ in range(60)])
+        for (mode, forces), (other_mode, others) in zip(*flights, strict=True):
+            assert mode == other_mode == FORCE
+            assert np.array_equal(forces, others) == same
+
+
 # What it refuses to write ---------------------------------------------------------------------------------------------
 
 
@@ -369,6 +423,10 @@ def test_parameters_that_the_law_cannot_fly_with_are_refused_at_upload(firmware)
         ("crazyflie", {}, {"airframe": "cf21bl"}, "rotor_positions"),
         ("crazyflie", {}, {"rate": 300.0}, "rate"),
         ("crazyflie", {"bob_mass": 0.03}, {}, "vehicle"),
+        ("crazyflie", {}, {"sensors": "onboard"}, "sensors"),
+        ("crazyflie", {}, {"sensors": "mocap", "planned": True}, "planned"),
+        ("px4", {}, {"sensors": "mocap"}, "sensors"),
+        ("px4", {}, {"planned": True}, "planned"),
         ("crazyflie", {"rotor_spins": (1, -1, 1, -1)}, {}, "rotor_positions"),
     ],
 )
@@ -412,13 +470,17 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 
 @pytest.mark.parametrize("name", LAWS)
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
-    used, flown = stack(exported(LAWS[name](), fp.vehicle("crazyflie"), tmp_path))
+    used, flown = stack(exported(name, fp.vehicle("crazyflie"), tmp_path))
     assert flown > 90
     assert 150 < used < fits.BUDGETS["crazyflie"].most["bytes of stack"]
-    made = interface(LAWS[name](), VEHICLE)
-    told = fits.compiled(*(core(made, "float")[f"flypend_law.{end}"] for end in "hc"), "a Crazyflie")
+    make, options = LAWS[name]
+    made = interface(make(), VEHICLE, 500.0, sensors_called(options.get("sensors")))
+    texts = core(made, "float")
+    if "planned" in options:
+        texts |= {f"flypend_plan.{end}": (tmp_path / f"app/flypend_plan.{end}").read_text() for end in "hc"}
+    told = fits.compiled(tuple(texts.items()), "a Crazyflie")
     assert 0 <= told["bytes of stack"] - used < 40
-    flash, memory = size(tmp_path / "app", APP)
+    flash, memory = size(tmp_path / "app")
     assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
     assert told["bytes of RAM"] == pytest.approx(memory, rel=0.05)
 

@@ -70,6 +70,17 @@ def test_an_excursion_is_that_with_perfect_states_and_ideal_mixing(built, kind, 
     assert far < 1.1 * ideal
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("options", "kind", "most"), [({"sensors": "mocap"}, "random", 1.1), ({"planned": True}, "hanging", 0.3)]
+)
+def test_an_estimator_costs_no_room_and_a_plan_saves_it(options, kind, most, firmware_source, tmp_path):
+    flown = exported(firmware_source, tmp_path / "app", "cf2", **options)
+    stood, far, _, ideal = in_firmware(*flown, starts(60, 2024)[kind][1])
+    assert stood
+    assert far < most * ideal
+
+
 def test_without_the_law_the_app_is_the_firmwares_pid_to_the_bit(built):
     """On the rig and released, the rod hanging: hover, then a landing."""
     flights = []

@@ -64,17 +64,31 @@ def export_c(
 @click.option("--height", type=float, help="Height, m, below which it does not begin. Default: what a swing-up needs.")
 @click.option("--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length.")
 @click.option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
+@sensors_option
+@click.option("--plan", "planned", is_flag=True, help="Swing up from hanging by a plan; the law flies otherwise.")
 def export_app(
-    target: str, vehicle: str, out: Path, law: str, height: float | None, airframe: str | None, rate: float | None
+    target: str,
+    vehicle: str,
+    out: Path,
+    law: str,
+    height: float | None,
+    airframe: str | None,
+    rate: float | None,
+    sensors: str,
+    planned: bool,
 ) -> None:
     """Write an app for the firmware of TARGET, crazyflie or px4, that flies VEHICLE; see docs/export."""
-    from flypend import model
+    from flypend import errors, model
     from flypend.export import export_app as write
     from flypend.files.staging import check_writable
+    from flypend.plants import SUITES
 
     check_writable(out)
+    errors.one_of("--sensors", sensors, SUITES)
     machine, chosen = model.vehicle(vehicle), _symbolic(law)
-    flown = write(target, chosen, machine, out, airframe=airframe, rate=rate, height=height)
+    flown = write(
+        target, chosen, machine, out, airframe=airframe, rate=rate, height=height, sensors=sensors, planned=planned
+    )
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")

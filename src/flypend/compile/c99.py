@@ -69,9 +69,16 @@ class _Statements:
                 self._compute(number, operation)
 
     def result(self, number: int) -> str:
-        """The C expression of a number after all statements."""
-        at, place = len(self.program.operations), self.scratch.places.get(number)
-        return self._number(number, at) if place is None or self._is_near(number, at) else f"{SCRATCH}[{place}]"
+        """The C expression of a number after all statements.
+
+        No new constant: of inputs that are results as they came, hundreds would be on the stack at once.
+        """
+        operation, at = self.program.operations[number], len(self.program.operations)
+        if operation.name == "constant" or self._is_near(number, at):
+            return self._number(number, at)
+        if operation.name == "input":
+            return self.inputs[operation.arguments[0]][operation.arguments[1]]
+        return f"{SCRATCH}[{self.scratch.places[number]}]"
 
     def _is_near(self, number: int, at: int) -> bool:
         return number in self._known and (number in self._truths or at - self._known[number][1] <= SPAN)
@@ -128,18 +135,30 @@ def statements(
 ) -> list[str]:
     """C statements that compute `program`: `inputs[i][j]` is the C expression of entry j of input vector i.
 
-    `outputs[i][j]` receives entry j of output i, after everything has been computed: it may be an input as well.
-    What is needed later is kept in the array `SCRATCH` of `scratch(program).size` numbers. That and the inputs should
-    be volatile, or a compiler keeps copies on the stack. Products with constant matrices are calls of the functions of
-    `layers`. What is selected is computed in any case: no branch decides how long a call takes.
+    `outputs[i][j]` receives entry j of output i, after everything has been computed; results that are inputs as they
+    came are copied first, in order (`copies`). What is needed later is kept in the array `SCRATCH` of
+    `scratch(program).size` numbers. That and the inputs should be volatile, or a compiler keeps copies on the stack.
+    Products with constant matrices are calls of the functions of `layers`. What is selected is computed in any case: no
+    branch decides how long a call takes.
 
     Raises InputError for an operation that needs more of the C library than the square root.
     """
     writer = _Statements(program, inputs, precision)
     writer.write()
-    found = [[writer.result(number) for number in numbers] for numbers in program.outputs]
-    pairs = zip(outputs, found, strict=True)
-    return writer.lines + [f"{to} = {text};" for wanted, texts in pairs for to, text in zip(wanted, texts, strict=True)]
+    first = {to for to, _ in copies(program)}
+    places = [(i, j) for i, numbers in enumerate(program.outputs) for j in range(len(numbers))]
+    places.sort(key=lambda place: place not in first)  # stable
+    return writer.lines + [f"{outputs[i][j]} = {writer.result(program.outputs[i][j])};" for i, j in places]
+
+
+def copies(program: Program) -> list[tuple[tuple[int, int], tuple[int, ...]]]:
+    """Places (output, entry) that receive what stands at places (input, entry), in order."""
+    return [
+        ((i, j), program.operations[number].arguments)
+        for i, numbers in enumerate(program.outputs)
+        for j, number in enumerate(numbers)
+        if program.operations[number].name == "input"
+    ]
 
 
 def layers(program: Program, precision: Precision) -> list[str]:
@@ -189,8 +208,8 @@ def reads(program: Program, vector: int) -> set[int]:
 def function(program: Program, precision: Precision) -> str:
     """`program` as a static C function, after its `layers`, of pointers: scratch memory, inputs that it reads, outputs.
 
-    All inputs are read before any output is written, so that an output may take the place of an input. A program that
-    needs no scratch memory takes none.
+    Inputs that are computed with are read before any output is written, so that an output may take the place of an
+    input; `call` refuses the rest. A program that needs no scratch memory takes none.
     """
     taken = [vector for vector in range(len(program.inputs)) if reads(program, vector)]
     inputs = [[f"in{i}[{k}]" for k in range(length)] for i, length in enumerate(program.inputs)]
@@ -203,7 +222,15 @@ def function(program: Program, precision: Precision) -> str:
 
 
 def call(program: Program, inputs: Sequence[str], outputs: Sequence[str], memory: str = SCRATCH) -> str:
-    """The call of what `function` writes, with C expressions of pointers for all vectors and for scratch `memory`."""
+    """The call of what `function` writes, with C expressions of pointers for all vectors and for scratch `memory`.
+
+    Raises ValueError where an output takes the place of an input of which an entry is copied after it was overwritten.
+    """
+    written = set[tuple[str, int]]()
+    for (i, j), (vector, entry) in copies(program):
+        if (inputs[vector], entry) in written:
+            raise ValueError(f"{program.name} copies {inputs[vector]}[{entry}], which it has overwritten")
+        written.add((outputs[i], j))
     taken = [text for vector, text in enumerate(inputs) if reads(program, vector)]
     given = [text for text, numbers in zip(outputs, program.outputs, strict=True) if numbers]
     return f"{program.name}({', '.join([*[memory] * bool(scratch(program).size), *taken, *given])});"

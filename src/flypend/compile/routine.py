@@ -199,16 +199,12 @@ class _Builder:
     def _places(self, last: dict[int, int]) -> tuple[dict[int, int], tuple[int, ...]]:
         """Assign each buffer a slot, and return the lengths of the slots.
 
-        A call reads all inputs before it writes, so an output may reuse the slot of one of its inputs.
+        An output never reuses the slot of an input of its own call: C copies from one to the other (`c99.copies`).
         """
         free: dict[int, list[int]] = {}
         places: dict[int, int] = {}
         lengths: list[int] = []
         for i, call in enumerate(self._calls):
-            read = {cell.number for cells in call.inputs for cell in cells if cell.memory == "call"}
-            for number in sorted(read):
-                if last[number] == i:
-                    free.setdefault(self._lengths[number], []).append(places[number])
             for number in call.outputs:
                 length = self._lengths[number]
                 known = free.get(length)
@@ -217,6 +213,8 @@ class _Builder:
                 else:
                     places[number] = len(lengths)
                     lengths.append(length)
-                if number not in last:  # never read
-                    free.setdefault(length, []).append(places[number])
+            read = {cell.number for cells in call.inputs for cell in cells if cell.memory == "call"}
+            never = [number for number in call.outputs if number not in last]
+            for number in (*sorted(n for n in read if last[n] == i), *never):
+                free.setdefault(self._lengths[number], []).append(places[number])
         return places, tuple(lengths)

@@ -11,17 +11,24 @@ import numpy as np
 
 from flypend import errors, signals
 from flypend.board import pose, rod
+from flypend.board.history import REACH, History
 from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
+from flypend.export import records
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
-from flypend.export.interface import interface
+from flypend.export.interface import Interface, interface
+from flypend.export.plan import files as plan_files
+from flypend.export.sensors import describe
+from flypend.export.source import initializer
 from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import staging
 from flypend.laws import BoundLaw, Law
-from flypend.model import Vehicle
+from flypend.model import State, Vehicle
+from flypend.planning.planner import plan
+from flypend.plants.sensors import Sensors, sensors_called
 
 FILES: Mapping[str, tuple[str, ...]] = {
     "crazyflie": ("Makefile", "Kbuild", "app-config", "flypend_app.c", "README.md", "flypend_host.py"),
@@ -29,6 +36,8 @@ FILES: Mapping[str, tuple[str, ...]] = {
 }
 RATES: Mapping[str, float] = {"crazyflie": 500.0, "px4": 400.0}  # Hz; PX4's is IMU_GYRO_RATEMAX as it comes
 PERIOD = 1e-3  # s, of the firmware's stabilizer
+STREAMS = ("position", "attitude", "rod", "gyro", "accelerometer")  # what a Crazyflie's app can tell an estimator
+LATEST = 0.1  # s, age up to which track_pose and track_rod take a pose
 
 
 @dataclass(frozen=True)
@@ -72,6 +81,8 @@ def export_app(
     airframe: str | None = None,
     rate: float | None = None,
     height: float | None = None,
+    sensors: Sensors | str | None = None,
+    planned: bool = False,
 ) -> Vehicle:
     """Write an app for the firmware of `target` that flies `law` on `vehicle`.
 
@@ -95,6 +106,12 @@ def export_app(
     height : float, optional
         Height above the ground, m, below which the law does not begin. Default: what a swing-up needs in the model,
         with a margin.
+    sensors : Sensors or str, optional
+        For a Crazyflie: what poses, gyroscope and accelerometer are like, or the name of a suite. The law then flies on
+        the estimator for them, as `export_c` has it. Default "perfect": on an observer of the pose and one of the rod.
+    planned : bool
+        For a Crazyflie: plan a swing-up of least excursion from rest with the rod hanging, and let the law fly where it
+        ends, or where rod or pivot are too far from it.
 
     Returns
     -------
@@ -104,9 +121,10 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, for a vehicle that is no such airframe, for an airframe with PX4, for a law
-        that does not swing the rod up unless a height is given, and for one that takes too many cycles, or too much
-        memory (`fits`).
+        As `export_c`, for another target, for a vehicle that is no such airframe, for an airframe, sensors or a plan
+        with PX4, for sensors other than those of a Crazyflie or with a plan, for a plan that fails, for a law that does
+        not swing the rod up unless a height is given, and for one that takes too many cycles, or too much memory
+        (`fits`).
     """
     errors.one_of("target", target, tuple(FILES))
     if not isinstance(vehicle, Vehicle):
@@ -114,14 +132,19 @@ def export_app(
     rate = errors.number("rate", RATES[target] if rate is None else rate, above=0, at_most=1000, unit="Hz")
     if height is not None:
         errors.number("height", height, at_least=0.5, at_most=100, unit="m")
+    read = sensors_called(sensors, "sensors")
     if target == "px4":
-        if airframe is not None:
-            raise InputError("airframe", "none for px4, whose parameters CA_ROTOR hold it", repr(airframe))
+        _check_px4(airframe, sensors if read else None, planned)
         flown, own = vehicle, _px4(vehicle, rate)
     else:
+        _check_sensors(read, planned)
         flown, own = _crazyflie(vehicle, rate, airframe)
-    made = interface(law, flown, rate, None)
+    made = interface(law, flown, rate, read)
     texts = core(made, "float")
+    if planned:
+        texts |= plan_files(plan(flown, State(y=(0, 0, -1))), "float")
+    if target == "crazyflie":
+        own |= _computer(made, rate, planned)
     taken = check_fits(made, texts, BUDGETS[target])
     room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
     values = values_of(made, "float") | {
@@ -167,6 +190,61 @@ def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Veh
         "pose_attitude": str(pose.RECORD.place("R").start),
         "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
+
+
+def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
+    """What the Crazyflie's templates take of the flight computer, with an estimator or without, or behind a plan."""
+    units, record, latest = ["flypend_app", "flypend_law", "flypend_frames"], records.MEASUREMENT, LATEST
+    beside, told = "", dict.fromkeys(("tell_imu", "tell_pose", "tell_rod"), "")
+    if made.sensing is not None:
+        sensors = made.sensing.sensors
+        history = History.of(sensors, 1 / rate)
+        # Arrived, a pose waits for the law's next step.
+        latest = min(history.oldest(name) for name in STREAMS[:3]) - REACH - 1 / rate
+        units, record = [*units, "flypend_sensors"], records.STATE
+        beside = (
+            f"- **How good they are**: the law's estimator reckons with {'; '.join(describe(sensors))} (SI units).\n"
+        )
+        told = {
+            "tell_imu": "    tell_imu(sensors);\n",
+            "tell_pose": "    tell_pose(position, turned, age);\n",
+            "tell_rod": "    tell_rod(end->from_pivot, age);\n",
+        }
+    if planned:
+        units = [*units, "flypend_plan"]
+        beside = (
+            "- **That the rod hangs at rest**: then a swing-up follows a plan; else, or thrown off it, the law flies.\n"
+        )
+    parts = ["measured" if made.sensing is None else "sensed", *["planned"] * planned]
+    return told | {
+        "computer": "".join(fill(f"crazyflie/{part}.c", {"period": literal(1 / rate, "float")}) for part in parts),
+        "beside": beside,
+        "flown": "planned" if planned else "computer",
+        "plan_header": '#include "flypend_plan.h"\n' * planned,
+        "computer_header": "flypend_law.h" if made.sensing is None else "flypend_sensors.h",
+        "state_read": record.name,
+        "zero_state": initializer(record, [0.0] * record.length, "float"),
+        "latest": str(math.floor(1e3 * latest + 1e-6)),  # whole milliseconds, but for rounding
+        "objects": "".join(f"obj-y += {unit}.o\n" for unit in units),
+    }
+
+
+def _check_sensors(sensors: Sensors | None, planned: bool) -> None:
+    if sensors is None:
+        return
+    if set(sensors.streams) != set(STREAMS):
+        raise InputError("sensors", f"{', '.join(STREAMS)}, and nothing else", ", ".join(sensors.streams))
+    if planned:  # the period in which one begins after the other would take too many cycles
+        raise InputError("planned", "False with an estimator", "True")
+
+
+def _check_px4(airframe: str | None, sensors: Sensors | str | None, planned: bool) -> None:
+    if airframe is not None:
+        raise InputError("airframe", "none for px4, whose parameters CA_ROTOR hold it", repr(airframe))
+    if sensors is not None:
+        raise InputError("sensors", "none for px4, which has an estimator of its own", repr(sensors))
+    if planned:
+        raise InputError("planned", "False for px4, whose module flies a law alone", "True")
 
 
 def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:

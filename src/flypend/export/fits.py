@@ -78,9 +78,10 @@ def check_fits(made: Interface, texts: Mapping[str, str], budget: Budget) -> Map
     Cycles are estimated. The others are those of the firmware's compiler for the `texts` by file name, where this
     machine has it, which a build needs in any case.
     """
-    taken = {"cycles": CYCLES_OF_OPERATION * made.board.operations()}
+    flown = made.board if made.sensing is None else made.sensing.board
+    taken = {"cycles": CYCLES_OF_OPERATION * flown.operations()}
     if shutil.which(COMPILER):
-        taken |= compiled(texts["flypend_law.h"], texts["flypend_law.c"], budget.of)
+        taken |= compiled(tuple(sorted(texts.items())), budget.of)
     over = {what: number for what, number in taken.items() if number > budget.most.get(what, number)}
     if over:
         wanted = ", ".join(f"{budget.most[what]:,} {what}" for what in over)
@@ -92,19 +93,24 @@ def check_fits(made: Interface, texts: Mapping[str, str], budget: Budget) -> Map
 
 
 @lru_cache(maxsize=8)
-def compiled(header: str, source: str, of: str) -> dict[str, int]:
-    """Return the bytes of stack, flash and RAM that an app with the law of `header` and `source` takes `of` whom."""
+def compiled(texts: tuple[tuple[str, str], ...], of: str) -> dict[str, int]:
+    """Return the bytes of stack, flash and RAM that an app with the computer of `texts`, by file, takes `of` whom."""
     budget = next(known for known in BUDGETS.values() if known.of == of)
+    names = [Path(name).stem for name, _ in texts if name.endswith(".c")]
+    computer = "sensors" if "flypend_sensors" in names else "board"
+    header = "flypend_sensors.h" if computer == "sensors" else "flypend_law.h"
     with TemporaryDirectory() as place:
         folder = Path(place)
-        (folder / "flypend_law.h").write_text(header, encoding="utf-8")
-        (folder / "flypend_law.c").write_text(source, encoding="utf-8")
-        (folder / "memory.c").write_text('#include "flypend_law.h"\nflypend_board board;\n', encoding="utf-8")
-        sources = ("flypend_law.c", "memory.c")
-        _run(folder, COMPILER, *budget.processor, *FLAGS, "-fcallgraph-info=su", "-c", *sources)
-        sizes = _run(folder, "arm-none-eabi-size", "flypend_law.o", "memory.o").splitlines()[1:]
+        for name, content in texts:
+            (folder / name).write_text(content, encoding="utf-8")
+        (folder / "memory.c").write_text(f'#include "{header}"\nflypend_{computer} held;\n', encoding="utf-8")
+        names.append("memory")
+        flags = (*budget.processor, *FLAGS, "-fcallgraph-info=su")
+        _run(folder, COMPILER, *flags, "-c", *(f"{name}.c" for name in names))
+        sizes = _run(folder, "arm-none-eabi-size", *(f"{name}.o" for name in names)).splitlines()[1:]
         text, data, bss = (sum(int(line.split()[i]) for line in sizes) for i in range(3))
-        depth = deepest((folder / "flypend_law.ci").read_text(encoding="utf-8"), "flypend_board_step")
+        graph = "".join((folder / f"{name}.ci").read_text(encoding="utf-8") for name in names)
+        depth = max(deepest(graph, entry) for entry in (f"flypend_{computer}_step", "flypend_plan_command"))
     return {
         "bytes of stack": budget.stack + depth,
         "bytes of flash": budget.code + text + data,
@@ -113,13 +119,14 @@ def compiled(header: str, source: str, of: str) -> dict[str, int]:
 
 
 def deepest(graph: str, entry: str) -> int:
-    """Return the bytes of stack of the deepest calls of `entry` in a call graph of GCC; nothing in it recurses."""
-    frames = {
-        name: int(size)
-        for name, size in re.findall(r'^node: { title: "(?:[^":]*:)?([\w.]+)" label: "[^"]*?(\d+) bytes', graph, re.M)
-    }
+    """Return the bytes of stack of the deepest calls of `entry` in call graphs of GCC; nothing in them recurses.
+
+    Static functions are called file:name.
+    """
+    nodes = re.findall(r'^node: { title: "([^"]+)" label: "[^"]*?(\d+) bytes', graph, re.MULTILINE)
+    frames = {name: int(size) for name, size in nodes}
     calls: dict[str, set[str]] = {}
-    for caller, called in re.findall(r'sourcename: "(?:[^":]*:)?([\w.]+)" targetname: "(?:[^":]*:)?([\w.]+)"', graph):
+    for caller, called in re.findall(r'sourcename: "([^"]+)" targetname: "([^"]+)"', graph):
         calls.setdefault(caller, set()).add(called)
 
     @cache

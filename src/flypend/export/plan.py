@@ -135,12 +135,18 @@ def export_plan(plan: Plan, folder: str | Path, *, precision: Precision = "float
     InputError
         If the plan failed, or the precision cannot hold its numbers.
     """
+    texts = files(plan, precision)
+    with staging(folder) as into:
+        for name, text in texts.items():
+            (into / name).write_text(text, encoding="ascii")
+
+
+def files(plan: Plan, precision: Precision) -> dict[str, str]:
+    """Name and text of both files of a `plan`. Raises InputError as `export_plan`."""
     if not isinstance(plan, Plan) or not plan:
         raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
     values = _values(plan, precision)
-    with staging(folder) as into:
-        (into / f"{NAME}.h").write_text(_HEADER.format(**values), encoding="ascii")
-        (into / f"{NAME}.c").write_text(_SOURCE.format(**values), encoding="ascii")
+    return {f"{NAME}.h": _HEADER.format(**values), f"{NAME}.c": _SOURCE.format(**values)}
 
 
 def _values(plan: Plan, precision: Precision) -> dict[str, Any]:

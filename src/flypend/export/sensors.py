@@ -9,7 +9,7 @@ from flypend.compile.program import Program
 from flypend.compile.scratch import scratch
 from flypend.export import records
 from flypend.export.interface import Interface, Sensing
-from flypend.export.source import initializer, numbers_of, offsets, record_of, struct
+from flypend.export.source import numbers_of, offsets, record_of, struct
 from flypend.plants.sensing import readings_record
 from flypend.plants.sensors import Sensors
 
@@ -19,14 +19,15 @@ FILES = ("flypend_sensors.h", "flypend_sensors.c")
 def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> dict[str, Any]:
     """What the templates of FILES take beside the values of the law's own."""
     readings = readings_record(sensing.sensors)
-    programs: dict[str, Program] = {"begin": sensing.begin, "sound": sensing.sound}
+    checks = {name: made.programs[name] for name in ("rod", "attitude")}
+    programs: dict[str, Program] = {"begin": sensing.begin, "sound": sensing.sound, **checks}
     programs |= {program.name: program for program in sensing.board.programs}
     texts = [function(program, precision) for program in programs.values()]
     inputs = [readings, records.STATE, made.params]
     inputs += [records.PATH] * made.follows
     given = ("computer->memory", "in->readings", "path", "gains_numbers(&computer->gains)", "p")
     fly = ["in->rest", *(given[i] for i in inputs_used_by(sensing.board)), "in->memory", "in->command"]
-    sizes = [scratch(program).size for program in (sensing.begin, sensing.sound)]
+    sizes = [scratch(program).size for program in (sensing.begin, sensing.sound, *checks.values())]
     locals_, fill = "    (void)reference;\n", ""
     if made.follows:
         locals_ = ""
@@ -46,17 +47,17 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
         "call_begin": call(sensing.begin, ("given.force", "s", "p"), ["computer->memory"], "computer->scratch.rest"),
         "call_sound": call(sensing.sound, ("r",), ["defect"], "rest"),
         "call_board": f"fly({', '.join(fly)});",
-        "hover": initializer(records.REFERENCE, [0.0] * records.REFERENCE.length, precision),
         "locals": locals_,
         "null": " || (reference == NULL)" if made.follows else "",
         "fill": fill,
         "command_delay": f"{sensing.sensors.command_delay or 0.0:.3g}",
-        "sensor_table": "\n".join(f" *   {line}" for line in _table(sensing.sensors)),
+        "sensor_table": "\n".join(f" *   {line}" for line in describe(sensing.sensors)),
         "start": _start(sensing.sensors),
     }
 
 
-def _table(sensors: Sensors) -> list[str]:
+def describe(sensors: Sensors) -> list[str]:
+    """Rate, noise and latency of each stream, in words."""
     return [
         f"{name}: {s.rate:g} Hz, noise {s.noise:g}, latency {s.latency:g} s"
         + (f", steps {s.quantisation:.4g}" if s.quantisation else "")

@@ -1,17 +1,13 @@
 /* Checks ------------------------------------------------------------------------------------------------------- */
 
-static int number(flypend_real value)
-{
-    return (value >= -$largest) && (value <= $largest);
-}
-
+/* 0 times infinity, or times what is no number, is no number, and neither is a sum with it. */
 static int numbers(const flypend_real *values, int count)
 {
-    int all = 1;
+    flypend_real none = 0;
     for (int i = 0; i < count; i++) {
-        all = all && number(values[i]);
+        none += 0 * values[i];
     }
-    return all;
+    return none >= 0;
 }
 
 /* Words of 32 bits in a number. */
@@ -38,4 +34,22 @@ static uint32_t check_word(uint32_t h, const flypend_real *values, int count)
         }
     }
     return h;
+}
+
+static int is_rotation(flypend_real *rest, const flypend_real *s)
+{
+    flypend_real defect[2];
+    (void)rest;
+    $call_attitude
+    return (defect[0] <= FLYPEND_ROTATION_TOLERANCE) && (defect[1] > 0);
+}
+
+static flypend_status check_state(flypend_real *rest, const flypend_real *s)
+{
+    flypend_real defect[3];
+    $call_rod
+    if (!((defect[0] <= FLYPEND_TOLERANCE) && (defect[1] <= FLYPEND_TOLERANCE * (1 + defect[2])))) {
+        return FLYPEND_ROD;
+    }
+    return is_rotation(rest, s) ? FLYPEND_OK : FLYPEND_ATTITUDE;
 }

@@ -1,7 +1,6 @@
 /* The $law law for the vehicle $vehicle, by flypend $version. Generated: change the law, not this file. */
 #include "flypend_law.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -56,24 +55,6 @@ static flypend_status check_params(const flypend_real *p)
     return (bodies && rotors) ? FLYPEND_OK : FLYPEND_PARAMS;
 }
 
-static int is_rotation(flypend_real *rest, const flypend_real *s)
-{
-    flypend_real defect[2];
-    (void)rest;
-    $call_attitude
-    return (defect[0] <= FLYPEND_ROTATION_TOLERANCE) && (defect[1] > 0);
-}
-
-static flypend_status check_state(flypend_real *rest, const flypend_real *s)
-{
-    flypend_real defect[3];
-    $call_rod
-    if (!((defect[0] <= FLYPEND_TOLERANCE) && (defect[1] <= FLYPEND_TOLERANCE * (1 + defect[2])))) {
-        return FLYPEND_ROD;
-    }
-    return is_rotation(rest, s) ? FLYPEND_OK : FLYPEND_ATTITUDE;
-}
-
 /* Safe answers ------------------------------------------------------------------------------------------------- */
 
 /* The wrench w for the numbers s of a state, null for none, and p of usable parameters: it levels the vehicle if its
@@ -88,7 +69,7 @@ static void safe_wrench(flypend_real *rest, const flypend_real *s, const flypend
             return;
         }
     }
-    w[0] = number(least) ? least : 0;
+    w[0] = numbers(&least, 1) ? least : 0;
     for (int i = 1; i < 4; i++) {
         w[i] = 0;
     }
@@ -425,7 +406,7 @@ $rest_quicken    if (command == NULL) {
         return safe_rotors(FLYPEND_NULL, p, command);
     }
     copy(rotors_numbers(wanted), to, FLYPEND_ROTORS);
-    if (!(numbers(to, FLYPEND_ROTORS) && numbers(from, FLYPEND_ROTORS) && number(lead))) {
+    if (!(numbers(to, FLYPEND_ROTORS) && numbers(from, FLYPEND_ROTORS) && numbers(&lead, 1))) {
         return safe_rotors(FLYPEND_NOT_FINITE, p, command);
     }
     $call_quicken /* within the limits, whatever overflows, but where 0 times infinity is no number */

@@ -1,7 +1,6 @@
 /* The $law law for the vehicle $vehicle with an estimator, by flypend $version. Generated: change the law, not this file. */
 #include "flypend_sensors.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -71,7 +70,6 @@ flypend_status flypend_sensors_restart(flypend_sensors *computer, const flypend_
                                        const flypend_rotors *rotors)
 {
     flypend_rotors given;
-    flypend_wrench wrench;
     if (computer == NULL) {
         return FLYPEND_NULL;
     }
@@ -89,14 +87,15 @@ flypend_status flypend_sensors_restart(flypend_sensors *computer, const flypend_
     if (!(numbers(given.force, FLYPEND_ROTORS) && numbers(gains_numbers(gains), FLYPEND_GAINS))) {
         return FLYPEND_NOT_FINITE;
     }
-    /* The bare law refuses what is no state. */
-    static const flypend_reference hover = $hover;
-    const flypend_status state = flypend_step(estimate, &hover, gains, params, &wrench);
-    if ((state != FLYPEND_OK) && (state != FLYPEND_SINGULAR)) {
-        return state;
-    }
     const flypend_real *p = params_numbers(params);
     const flypend_real *s = state_numbers(estimate);
+    if (!numbers(s, FLYPEND_STATE + FLYPEND_FORCES)) {
+        return FLYPEND_NOT_FINITE;
+    }
+    const flypend_status state = check_state(computer->scratch.rest, s);
+    if (state != FLYPEND_OK) {
+        return state;
+    }
     $call_begin
     if (!numbers(computer->memory, FLYPEND_SENSORS_MEMORY)) {
         return FLYPEND_SINGULAR;

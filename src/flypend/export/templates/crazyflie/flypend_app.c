@@ -31,8 +31,8 @@
 #include "supervisor.h"
 
 #include "flypend_frames.h"
-#include "flypend_law.h"
-
+#include "$computer_header"
+$plan_header
 #if (RATE_MAIN_LOOP % $rate) != 0
 #error "the stabilizer loop is no multiple of the control rate that the code was exported for"
 #endif
@@ -79,7 +79,6 @@ typedef struct {
     bool seen;
 } rod_end;
 
-static flypend_board board;
 static rod_end bob;                    /* written by the app's task, the rest by the stabilizer's, if nothing else is said */
 static float pose[POSE_NUMBERS];       /* what track_pose remembers: position, velocity, attitude, .., age */
 static uint16_t pose_tick;             /* of the newest pose */
@@ -182,6 +181,31 @@ bool controllerOutOfTreeTest(void)
     return controllerPidTest();
 }
 
+static void read_state(const sensorData_t *sensors, flypend_$state_read *to)
+{
+    static const flypend_$state_read zero = $zero_state;
+    *to = zero;
+    memcpy(to->x, pose, sizeof to->x);
+    memcpy(to->x_dot, pose + 3, sizeof to->x_dot);
+    memcpy(to->R, pose + POSE_R, sizeof to->R);
+    to->omega[0] = flypend_radians(sensors->gyro.x);
+    to->omega[1] = flypend_radians(sensors->gyro.y);
+    to->omega[2] = flypend_radians(sensors->gyro.z);
+    memcpy(to->y, rod, sizeof to->y);
+    memcpy(to->y_dot, rod + 3, sizeof to->y_dot);
+}
+
+/* The firmware's vectors begin with a time stamp. */
+static void read_path(const setpoint_t *setpoint, flypend_path *path)
+{
+    static const flypend_path zero = $zero_path;
+    *path = zero;
+    memcpy(path->x0, &setpoint->position.x, sizeof path->x0);
+    memcpy(path->x1, &setpoint->velocity.x, sizeof path->x1);
+    memcpy(path->x2, &setpoint->acceleration.x, sizeof path->x2);
+}
+
+$computer
 /* The firmware's Kalman filter predicts a hundred times a second, so in a turn its attitude is up to 10 ms old, and a pose
  * corrects it for another time. The law therefore has an estimate of its own; once a step. */
 static void follow_pose(const sensorData_t *sensors)
@@ -206,7 +230,7 @@ static void follow_pose(const sensorData_t *sensors)
         }
         pose_tick = tick;
     }
-    $call_track_pose
+$tell_pose    $call_track_pose
     begin_anew_if_not_finite(pose, POSE_NUMBERS);
 }
 
@@ -225,32 +249,8 @@ static void follow_rod(const sensorData_t *sensors, const rod_end *end)
         rod_tick = end->tick;
     }
     flypend_to_world(pose + POSE_R, felt, force);
-    $call_track_rod
+$tell_rod    $call_track_rod
     begin_anew_if_not_finite(rod, ROD_NUMBERS);
-}
-
-static void read_measurement(const sensorData_t *sensors, flypend_measurement *to)
-{
-    static const flypend_measurement zero = $zero_measurement;
-    *to = zero;
-    memcpy(to->x, pose, sizeof to->x);
-    memcpy(to->x_dot, pose + 3, sizeof to->x_dot);
-    memcpy(to->R, pose + POSE_R, sizeof to->R);
-    to->omega[0] = flypend_radians(sensors->gyro.x);
-    to->omega[1] = flypend_radians(sensors->gyro.y);
-    to->omega[2] = flypend_radians(sensors->gyro.z);
-    memcpy(to->y, rod, sizeof to->y);
-    memcpy(to->y_dot, rod + 3, sizeof to->y_dot);
-}
-
-/* The firmware's vectors begin with a time stamp. */
-static void read_path(const setpoint_t *setpoint, flypend_path *path)
-{
-    static const flypend_path zero = $zero_path;
-    *path = zero;
-    memcpy(path->x0, &setpoint->position.x, sizeof path->x0);
-    memcpy(path->x1, &setpoint->velocity.x, sizeof path->x1);
-    memcpy(path->x2, &setpoint->acceleration.x, sizeof path->x2);
 }
 
 static bool is_sound(const state_t *state)
@@ -362,14 +362,12 @@ static void land(control_t *control, const setpoint_t *setpoint, const sensorDat
 /* One period of the law; false where it refuses. */
 static bool fly(const setpoint_t *setpoint, const sensorData_t *sensors)
 {
-    static flypend_measurement now;
     static flypend_path path;
     flypend_rotors rotors;
-    read_measurement(sensors, &now);
     read_path(setpoint, &path);
-    status = (uint8_t)flypend_board_step(&board, &now, &path, &params, &rotors);
-    if (status == (uint8_t)FLYPEND_NOT_BEGUN) { /* damaged: it levels out for a period, and begins again */
-        (void)flypend_board_restart(&board, &flypend_default_gains, &params, &rotors);
+    status = (uint8_t)step_$flown(sensors, &path, &rotors);
+    if (status == (uint8_t)FLYPEND_NOT_BEGUN) { /* damaged: it gives a safe command for a period, and begins again */
+        (void)begin_$flown(sensors, &rotors);
         status = FLYPEND_OK;
     }
     for (int i = 0; i < 4; i++) {
@@ -395,8 +393,7 @@ static bool begin(const setpoint_t *setpoint, const sensorData_t *sensors)
     for (int i = 0; i < 4; i++) {
         now.force[i] = isfinite(spinning[i]) ? spinning[i] : 0;
     }
-    return (flypend_board_restart(&board, &flypend_default_gains, &params, &now) == FLYPEND_OK)
-        && fly(setpoint, sensors);
+    return (begin_$flown(sensors, &now) == FLYPEND_OK) && fly(setpoint, sensors);
 }
 
 void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const sensorData_t *sensors,
@@ -405,7 +402,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     const rod_end end = bob;
     const bool due = RATE_DO_EXECUTE($rate, step);
     follow_rotors();
-    follow_pose(sensors);
+$tell_imu    follow_pose(sensors);
     follow_rod(sensors, &end);
     const uint8_t found = obstacle(setpoint, state, &end);
     const bool is_null = (setpoint->mode.z == modeDisable) && (setpoint->thrust <= 0);
@@ -476,7 +473,7 @@ static void take(void)
     next.mass = asked.mass;
     next.bob_mass = asked.bob_mass;
     next.rod_length = asked.rod_length;
-    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= 100)
+    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= $latest)
         && (asked.height >= 2 * MISSED) && (asked.height <= 1000);
     taskENTER_CRITICAL();
     if (good && (flies != LAW)) {
@@ -495,7 +492,7 @@ static void take(void)
 PARAM_GROUP_START(flypend)
 /** 1: the law flies as soon as it can; 0: the firmware's PID controller does. */
 PARAM_ADD(PARAM_UINT8, on, &on)
-/** ms from a picture of vehicle and bob to the arrival of its packets, 0 to 100. */
+/** ms from a picture of vehicle and bob to the arrival of its packets, 0 to $latest. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, late, &asked.late, take)
 /** m above the ground, from which a swing-up has room: the law does not begin lower. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, height, &asked.height, take)

@@ -1,0 +1,34 @@
+
+/* A swing-up follows a plan, as long as rod and pivot are near it; then, and from anywhere else, the law flies. */
+static bool follows_plan;
+static float planned_time; /* s */
+
+static flypend_status begin_planned(const sensorData_t *sensors, const flypend_rotors *rotors)
+{
+    follows_plan = true;
+    planned_time = 0;
+    return begin_computer(sensors, rotors);
+}
+
+static flypend_status step_planned(const sensorData_t *sensors, const flypend_path *path, flypend_rotors *rotors)
+{
+    static flypend_measurement now;
+    static float here[24];
+    if (follows_plan) {
+        read_state(sensors, &now);
+        memcpy(here, &now, sizeof here);
+        for (int i = 0; i < 3; i++) {
+            here[i] -= path->x0[i];
+            here[3 + i] -= path->x1[i];
+        }
+        follows_plan = (planned_time < FLYPEND_PLAN_DURATION)
+            && (flypend_plan_command(planned_time, here, spinning, rotors->force) == 0);
+        if (follows_plan) {
+            planned_time += $period;
+            return FLYPEND_OK;
+        }
+        memcpy(rotors->force, spinning, sizeof rotors->force);
+        (void)begin_computer(sensors, rotors);
+    }
+    return step_computer(sensors, path, rotors);
+}

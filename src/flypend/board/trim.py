@@ -56,7 +56,7 @@ STEADY = 0.05
 # A moment tells the strength if it is a fair share of the largest, and counts half at HARD: in hover, noise of the
 # gyroscope comes back as moments. A flip at full moment for DOUBTED (s) weighs as much as what is assumed before the
 # flight, and such moments are forgotten over TESTED (s).
-HARD, DOUBTED, TESTED = 0.02, 0.0005, 2.0
+HARD, DOUBTED, TESTED = 0.02, 0.001, 2.0
 # The largest strength that is believed, either way, as of the thrust.
 MOST_STRENGTH = 0.5
 # Largest trim, as a share of the largest moment per weight: with more, there is nothing left to steer with.

@@ -26,8 +26,9 @@ SENSORS = {
     "as they are": {},
     "gyroscope off by 0.05 rad/s": {"gyro_bias": (0.03, -0.03, 0.03)},
     "accelerometer off by 0.3 m/s²": {"accelerometer_bias": (0.2, -0.2, 0.1)},
-    "IMU askew by 1°": {"imu_turned": TURNED},
-    "markers askew by 1°": {"markers_turned": TURNED},
+    "IMU askew by 1°": {"imu_turned": TURNED / np.sqrt(3)},
+    "IMU askew by 1° about each axis": {"imu_turned": TURNED},
+    "markers askew by 1° about each axis": {"markers_turned": TURNED},
     "1 % of poses wrong": {"outliers": 0.01},
     "poses 20 ms older than told": {"untold_latency": 0.02},
 }

@@ -19,14 +19,14 @@ VEHICLE = fp.vehicle("crazyflie")
 NONE = np.zeros(0)
 
 
-def found(plant, duration=4.0, vehicle=VEHICLE, y=(0.0, 0.0, 1.0)):
-    """The trims (k, 3), m, that the board finds in `duration` (s) in `plant`, from rest with the rod at `y`."""
+def found(plant, duration=4.0, vehicle=VEHICLE, y=(0.0, 0.0, 1.0), what="lever"):
+    """What the board finds of its trim in `duration` (s) in `plant`, from rest with the rod at `y`: levers (k, 3), m."""
     law, trims = fp.laws.inverted().bind(vehicle), []
     original = SteppedBoard.command
 
     def command(self, t, measured):
         answer = original(self, t, measured)
-        trims.append(self._memory[self._stages.made.own.place("delay.trim.lever")].copy())
+        trims.append(self._memory[self._stages.made.own.place(f"delay.trim.{what}")].copy())
         return answer
 
     with pytest.MonkeyPatch.context() as patch:
@@ -63,12 +63,45 @@ def test_a_false_delay_in_a_throw_is_taken_for_no_moment(y):
     assert np.abs(found(ROTORS, 2.0, fp.vehicle("hehn2011"), y)).max() < 1e-3
 
 
+@pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
+@pytest.mark.parametrize(
+    "wrong, strength",
+    [({"strength": 0.85}, -0.15), ({"mismatch": {"inertia": 0.8}}, 0.25), ({"centre_of_mass": (0, 0.002, 0)}, 0.0)],
+    ids=["weak rotors", "light inertia", "centre of mass off"],
+)
+def test_the_strength_of_moments_is_found_in_a_throw(wrong, strength, sensors):
+    """A lever is told from it: the thrust changes as well."""
+    plant = ROTORS.replace(sensors=sensors, delay=0.02, **wrong)
+    assert found(plant, 3.0, y=(0.0, 0.6, -0.8), what="strength")[-1] == pytest.approx(strength, abs=0.05)
+
+
+def test_a_light_machine_with_weak_rotors_and_a_short_rod_stands():
+    """Negative control: of these flights one or two stand if the strength of moments is not believed."""
+    late, stand = np.arange(18.0, 20.0, 0.02), []
+    plant = ROTORS.replace(
+        strength=0.85, mismatch={"mass": 0.8, "bob_mass": 0.8, "rod_length": 0.85}, sensors=SUITES["mocap"], delay=0.02
+    )
+    for most, observer in ((trimming.MOST_STRENGTH, 1.5), (0.0, 1.501)):  # two programs
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(trimming, "MOST_STRENGTH", most)
+            law = fp.laws.inverted(observer=observer)
+            flown = fp.simulate_ensemble(VEHICLE, law, fp.random_starts(12, 5), 20.0, plant=plant, times=late)
+        stand.append(np.sum(np.all(flown.samples.y[..., 2] > 0.95, axis=1)))
+    assert stand[0] == 12
+    assert stand[1] < 6
+
+
 def test_what_is_sent_takes_the_moment_back():
     send = as_numpy(trim(Believed.numbers(VEHICLE), limits=True))
     command, lever = np.array([0.09, 0.1, 0.11, 0.08]), np.array([1e-3, -2e-3, 1e-4])
+    strong = np.concatenate([lever, [0, 0.25], np.zeros(9)])
+    wanted = VEHICLE.mixing() @ command
+    wanted[1:] = wanted[1:] / 1.25 - wanted[0] * lever
+    np.testing.assert_allclose(VEHICLE.mixing() @ send(command, strong, NONE), wanted, rtol=0, atol=1e-12)
+    lever = np.concatenate([lever, np.zeros(11)])
     sent = send(command, lever, NONE)
     wanted = VEHICLE.mixing() @ command
-    wanted[1:] -= wanted[0] * lever
+    wanted[1:] -= wanted[0] * lever[:3]
     np.testing.assert_allclose(VEHICLE.mixing() @ sent, wanted, rtol=0, atol=1e-12)
     low, high = VEHICLE.rotor_limits
     full = send(np.full(4, high), lever, NONE)

@@ -26,8 +26,8 @@ OUTSIDE = Record(
     "outside",
     "What is found beyond the model.",
     (
-        Field("forces", 6, "external forces on vehicle and bob, world, e3 up, N"),
-        Field("scale", 0, "true over modelled thrust, less 1, as far as the forces have it"),
+        Field("forces", 6, "external forces on vehicle and bob beside the scaled thrust, world, e3 up, N"),
+        Field("scale", 0, "true over modelled thrust, less 1"),
         Field("pull", 0, "nominal over true length of the rod, less 1"),
     ),
 )
@@ -80,32 +80,37 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     rotors, outside = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", OUTSIDE.length)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
-    left, length = found(packed, rotors, outside, believed.vehicle.l)
-    forces = ca.SX.sym("left", 6)  # held constant while rates are derived: what scales the thrust turns with it
-    vehicle = _Measured(believed.vehicle, length) if loop.symbolic.uses_forces else believed.vehicle
-    wrench = steer(t, packed, forces, path, gains, vehicle)
+    told = OUTSIDE.split(outside)
+    vehicle = believed.vehicle
+    if loop.symbolic.uses_forces:
+        vehicle = _Measured(vehicle, found_length(vehicle, outside))
+    wrench = steer(t, packed, told["forces"], path, gains, vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
-    wrench = ca.substitute(wrench, ca.vertcat(t, forces), ca.vertcat(t + horizon, left))
-    wrench = rescale(wrench, outside)
+    wrench = rescale(ca.substitute(wrench, t, t + horizon), outside)
     command = to_command(loop, believed, wrench, packed, rotors)
     inputs = [t, horizon, packed, rotors, outside, path, p, believed.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
 
 
-def found(packed: Numbers, rotors: Numbers, outside: Numbers, length: Any) -> tuple[Numbers, Scalar]:
-    """Return external forces (6,), N, without what scales the thrust, and the rod's `length`, m, as found.
-
-    A weak rotor, or a heavier vehicle, acts along the thrust axis and turns with it. As a force that stays where it is,
-    it would make the loop of the thrust axis weaker by as much, since the law would turn against it.
-    """
+def total_forces(believed: Believed) -> ca.Function:
+    """Return (state (24,), rotors (n,), `OUTSIDE` (8,)) → external forces (6,), N, with what scales the thrust."""
+    packed, rotors, outside = ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors), ca.SX.sym("F", OUTSIDE.length)
     told = OUTSIDE.split(outside)
     scaled = told["scale"] * ca.sum1(rotors) * State.symbolic(packed).z
-    forces = told["forces"] - ca.vertcat(scaled, np.zeros(3))
-    return forces, length / (1 + told["pull"])
+    return ca.Function("total", [packed, rotors, outside], [told["forces"] + ca.vertcat(scaled, np.zeros(3))])
+
+
+def found_length(vehicle: Any, outside: Numbers) -> Scalar:
+    """Return the length of the rod of a nominal `vehicle` as found, m."""
+    return vehicle.l / (1 + OUTSIDE.split(outside)["pull"])
 
 
 def rescale(wrench: Numbers, outside: Numbers) -> Numbers:
-    """Return the `wrench` (4,) to ask of the model's rotors for that of the law."""
+    """Return the `wrench` (4,) to ask of the model's rotors for that of the law.
+
+    A weak rotor, or a heavier vehicle, acts along the thrust axis and turns with it. Told to the law as a force that
+    stays where it is, it would make the loop of the thrust axis weaker by as much: the law would turn against it.
+    """
     return ca.vertcat(wrench[0] / (1 + OUTSIDE.split(outside)["scale"]), wrench[1:])
 
 

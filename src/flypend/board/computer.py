@@ -85,7 +85,7 @@ class SteppedBoard:
     def take_trim(self, other: SteppedBoard) -> None:
         """Go on with the trim of the board `other`, by which the last command was sent."""
         if self._stages.made.finding is not None and other._stages.made.finding is not None:
-            mine, theirs = (board._stages.made.own.place("delay.trim.lever") for board in (self, other))
+            mine, theirs = (board._stages.made.own.place("delay.trim") for board in (self, other))
             self._memory[mine] = other._memory[theirs]
 
     def ask(self, t: float, measured: Numbers) -> Numbers:

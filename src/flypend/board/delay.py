@@ -7,12 +7,13 @@ period h, the angular velocity changes by
 
 which is measured, and ∂Δω/∂d = J⁻¹ (τ(t − h − d) − τ(t − d)) follows from the same past wrenches. So d is estimated by
 recursive least squares with forgetting. While moments hardly change, as in hover, they tell nothing, and d stays. A
-false inertia or strength of the rotors makes an error along τ, which does not correlate with the rate of τ. A rotor lag
-longer than believed counts as delay. An error in proportion to the thrust is the vehicle's trim (see `trim`).
+rotor lag longer than believed counts as delay. Errors in proportion to the thrust and along τ are the vehicle's trim
+(see `trim`); τ does not correlate with its rate.
 
 A predictor with a false delay oscillates about as fast as 1/d, and a loop that oscillates fits several delays. So both
 sides of what is linear in d, e + d̂ s = d s with error e and slope s, pass the same filter, whose band is below that.
 Were e and s filtered by themselves, errors of old estimates would be corrected again and again, and d̂ would overshoot.
+The same holds for what is linear in the trim.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import numpy as np
 
 from flypend.board import trim as trimming
 from flypend.board.believed import Believed
+from flypend.board.command import OUTSIDE
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar
 from flypend.laws.inverted_gains import angular_authority
@@ -89,8 +91,8 @@ class DelayEstimator:
             Field("information", 0, "what the past tells of the delay, rad^2/s^5"),
             Field("omega", 3, "angular velocity at the last measurement, body, rad/s"),
             Field("earlier", 3, "moment that acted then, body, N m"),
-            Field("smooth", 6, "error and slope behind the first filter, rad/s^2 and rad/s^3"),
-            Field("smoother", 6, "the same behind the second"),
+            Field("smooth", 10, "error, slope, model, rad/s^2, rad/s^3 and rad/s^2, and thrust, N, filtered"),
+            Field("smoother", 10, "the same, filtered again"),
             Field("past", self.depth * self._believed.rotors, "forces of the rotors, newest first, N"),
         )
         return Record("delay", "Estimator of the delay of the loop.", fields)
@@ -125,11 +127,16 @@ class DelayEstimator:
         slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
         apart = [(wrench - acting)[1:] for wrench in (now, self._wrench(entries[:, -1]))]
         spread = sum(ca.sumsqr(ca.mtimes(b.vehicle.I_inv, moment)) for moment in apart)
-        trim = trimming.follow(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], spread, begun, h, b.vehicle)
-        share = -np.expm1(-BAND / self._longest * h)
-        smooth = smooth + share * (begun * ca.vertcat(wrong + slope * delay, slope) - smooth)
+        trim = trimming.follow_lever(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], spread, begun, h, b.vehicle)
+        share, model = -np.expm1(-BAND / self._longest * h), ca.mtimes(b.vehicle.I_inv, acting[1:] + earlier) / 2
+        told = trimming.RECORD.split(trim)
+        turned = ca.mtimes(b.vehicle.I_inv, told["lever"])
+        whole = wrong + slope * delay + acting[0] * turned + told["strength"] * model
+        smooth = smooth + share * (begun * ca.vertcat(whole, slope, model, acting[0]) - smooth)
         smoother = smoother + share * (smooth - smoother)
-        wrong, slope = smoother[:3] - smoother[3:] * delay, smoother[3:]
+        whole, slope, model, thrust = ca.vertsplit(smoother, [0, 3, 6, 9, 10])
+        wrong = whole - slope * delay - thrust * turned - told["strength"] * model
+        trim = trimming.follow_strength(trim, whole - slope * delay, model, thrust, h, b.vehicle)
         information = np.exp(-h / FORGETTING) * known + h * ca.sumsqr(slope)
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
         found = delay + h * ca.dot(slope, wrong) / (information + doubt)
@@ -177,12 +184,13 @@ class DelayEstimator:
         return ca.Function("acting", [memory, rotors, b.symbols], [ca.cse(forces)])
 
     def carry(self) -> ca.Function:
-        """Return (state (24,), horizon, wrenches (4, 3), forces (6,), params) → state (24,) at the horizon."""
+        """Return (state (24,), horizon, wrenches (4, 3), `OUTSIDE` (8,), params) → state (24,) at the horizon."""
         b = self._believed
-        packed, horizon, forces = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", 6)
-        wrenches = ca.SX.sym("W", WRENCH, 3)
-        moved = cascade_step(packed, Ramp(wrenches[:, 0], wrenches[:, 1]), forces, horizon, b.vehicle)
-        return ca.Function("act_later", [packed, horizon, wrenches, forces, b.symbols], [ca.cse(ca.densify(moved))])
+        packed, horizon, outside = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", OUTSIDE.length)
+        wrenches, told = ca.SX.sym("W", WRENCH, 3), OUTSIDE.split(outside)
+        scaled = ca.vertcat((1 + told["scale"]) * wrenches[0, :], wrenches[1:, :])
+        moved = cascade_step(packed, Ramp(scaled[:, 0], scaled[:, 1]), told["forces"], horizon, b.vehicle)
+        return ca.Function("act_later", [packed, horizon, wrenches, outside, b.symbols], [ca.cse(ca.densify(moved))])
 
     def skip(self) -> ca.Function:
         """Return (memory, rotors (n,)) → memory after a period without measurement: the delay stays."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from flypend.board import error_state, felt
 from flypend.board.believed import Believed
-from flypend.board.command import OUTSIDE
+from flypend.board.command import OUTSIDE, total_forces
 from flypend.board.error_state import Densities
 from flypend.board.expected import GATED, Expected
 from flypend.board.history import REACH, History, finds_latency
@@ -171,6 +171,7 @@ class Filter:
             parts["felt"] = felt.correct(parts["felt"], *given)
             outside = outside + ca.vertcat(self._felt(parts, s.R), np.zeros(3))
             scale = _scale(outside[:3], thrust, s.z, vehicle)
+            outside = outside - ca.vertcat(scale * thrust * s.z, np.zeros(3))
         most = error_state.MOST_PULL
         pull = ca.fmin(ca.fmax(parts["pull"] + error[error_state.PULL], -most), most)
         parts |= {
@@ -225,9 +226,9 @@ class Filter:
         memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", OUTSIDE.length)
         given = ca.MX.sym("given", size)
         params = ca.MX.sym("params", self._believed.symbols.numel())
-        forces = OUTSIDE.split(outside)["forces"]
-        pulled = self._pulled()(memory, forces, params)
         state, rotors = (memory[self.record.place(name)] for name in ("state", "rotors"))
+        forces = total_forces(self._believed)(state, rotors, outside)
+        pulled = self._pulled()(memory, forces, params)
         if self._finds:
             state, rotors = self._moved()(state, rotors, given, pulled, params), given
         else:

@@ -17,7 +17,15 @@ import numpy as np
 
 from flypend.board import observer as observing
 from flypend.board.believed import Believed
-from flypend.board.command import OUTSIDE, command_width, idle_command, law_command, steering, usable_lead
+from flypend.board.command import (
+    OUTSIDE,
+    command_width,
+    idle_command,
+    law_command,
+    steering,
+    total_forces,
+    usable_lead,
+)
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, segments_of
@@ -261,9 +269,10 @@ def predicting(made: Parts) -> ca.Function:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
         kept["observer"], found["forces"] = observe(state, thrusts, before["observer"], params)
     if finding is not None:
-        state = finding.carry()(state, horizon, wrenches, found["forces"], params)
+        state = finding.carry()(state, horizon, wrenches, OUTSIDE.join(found), params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
-    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _predictor(loop), found["forces"])
+    forces = total_forces(believed)(state, rotors, OUTSIDE.join(found))
+    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _predictor(loop), forces)
     outputs = [made.kept.join(kept), OUTSIDE.join(found), state, rotors, horizon]
     return ca.Function("predict", [memory, measurement, params, *given], outputs)
 
@@ -281,7 +290,8 @@ def remembering(made: Parts) -> ca.Function:
     rotors, under_way = memory[made.own.place("rotors")], [command, *made.commands(memory)]
     if loop.sampled.interface == "rates":  # the rate loop's rotor commands depend on the rotation
         twin = _twin(loop, believed, params)
-        _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), OUTSIDE.split(outside)["forces"])
+        forces = total_forces(believed)(measurement[1:], rotors, outside)
+        _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), forces)
     else:
         rotors = _advance_rotors(loop, believed, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[:-1])
@@ -293,8 +303,8 @@ def trimming(made: Parts) -> ca.Function:
     memory, _, params = made.symbols
     command = sent = ca.MX.sym("command", command_width(made.loop))
     if made.finding is not None:
-        lever = memory[made.own.place("delay.trim.lever")]
-        sent = trim(made.believed, limits=made.loop.sampled.limits)(command, lever, params)
+        found = memory[made.own.place("delay.trim")]
+        sent = trim(made.believed, limits=made.loop.sampled.limits)(command, found, params)
     return ca.Function("trimmed", [memory, command, params], [sent])
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.board.believed import Believed
-from flypend.board.command import OUTSIDE, finish, found, lead_rotors, rescale
+from flypend.board.command import OUTSIDE, finish, found_length, lead_rotors, rescale
 from flypend.board.program import advance_unmeasured, board, initial_memory, parts
 from flypend.compile.c99 import reads
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
@@ -310,7 +310,7 @@ def _command(
     outside, path = ca.MX.sym("outside", OUTSIDE.length), ca.MX.sym("path", records.PATH.length)
     gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", believed.symbols.numel())
     reference = ca.MX(ca.DM.zeros(records.REFERENCE.length))
-    forces, flown = _found(believed)(state, rotors, outside, params)
+    forces, flown = outside[OUTSIDE.place("forces")], _found(believed)(outside, params)
     if follows:
         reference = carry(_shift()(path, horizon), forces, flown)
     wrench = _rescale()(steering(state, forces, reference, gains, flown), outside)
@@ -319,12 +319,10 @@ def _command(
 
 
 def _found(believed: Believed) -> ca.Function:
-    """(state, rotors, outside, params) → external forces without what scales the thrust, and params as found."""
-    state, rotors = ca.SX.sym("state", SIZE), ca.SX.sym("rotors", believed.rotors)
+    """(outside, params) → params with the length of the rod as found."""
     outside, params = ca.SX.sym("outside", OUTSIDE.length), believed.symbols
-    forces, length = found(state, rotors, outside, believed.vehicle.l)
-    flown = ca.substitute(params, believed.vehicle.l, length)
-    return ca.Function("found", [state, rotors, outside, params], [forces, flown])
+    flown = ca.substitute(params, believed.vehicle.l, found_length(believed.vehicle, outside))
+    return ca.Function("found", [outside, params], [flown])
 
 
 def _rescale() -> ca.Function:

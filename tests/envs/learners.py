@@ -155,7 +155,7 @@ def test_torch_shares_the_memory_of_the_worlds():
 )
 def test_the_shipped_settings_train(name, steps, seen_as, monkeypatch):
     """One look at the score; whether they learn is measured, by `python -m benchmarks.scores`."""
-    monkeypatch.setitem(learners.EVERY, name, steps // 4)
+    monkeypatch.setitem(learners.EVERY, name, steps // learners.RARER["swing_up"])
     found = learners.trained(name, "swing_up", 0, lambda one: 1.0, wanted=0.5, seconds=1, seen_as=seen_as)
     assert found.steps == steps
     assert scores.scored("swing_up", found.policy, 4, 0, **seen_as).returns.shape == (4,)

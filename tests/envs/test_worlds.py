@@ -232,25 +232,42 @@ def test_the_reward_is_its_formula():
     assert np.allclose(rewards, (1 + s[:, 20]) / 2 * kept - 0.02 * change, atol=1e-6)  # float32
 
 
-def test_the_shaped_swing_up_begins_at_any_angle_and_pays_for_the_energy_of_upright():
-    worlds = gymnasium.make_vec("flypend/SwingUpShaped-v0", 400, vectorization_mode="vector_entry_point").unwrapped
-    plain = VectorWorlds("swing_up", 400)
+def test_the_shaped_swing_up_begins_at_any_angle_and_pays_for_standing():
+    worlds = gymnasium.make_vec("flypend/SwingUpShaped-v0", 4000, vectorization_mode="vector_entry_point").unwrapped
+    plain = VectorWorlds("swing_up", 4000)
     worlds.reset(seed=3)
     y, y_dot = worlds.worlds.states[:, 18:21], worlds.worlds.states[:, 21:24]
-    # Roots of the angles are uniform: each quarter holds 100 of 400, give or take five deviations of 8.7.
-    assert np.all(abs(np.histogram(np.sqrt(np.arccos(y[:, 2]) / np.pi), 4, (0, 1))[0] - 100) < 44)
-    assert np.all(abs(y[:, :2].mean(0)) < 5 * np.sqrt((y[:, :2] ** 2).mean(0) / 400))  # in any direction
+    # A quarter of seven tenths in each quarter of u, and three tenths hang: give or take five deviations of 32.
+    quarters = np.histogram((np.arccos(y[:, 2]) / np.pi) ** (2 / 3), 4, (0, 1))[0]
+    assert np.all(abs(quarters - [700, 700, 700, 1900]) < 160)
+    assert np.all(abs(y[:, :2].mean(0)) < 5 * np.sqrt((y[:, :2] ** 2).mean(0) / 4000))  # in any direction
     energies = y[:, 2] + VEHICLE.l * (y_dot**2).sum(1) / (2 * VEHICLE.g)
     assert 0.9 < energies.max() < 1.0 + 1e-12
     plain.reset(seed=3)
-    plain.worlds.arrays["memories"][:] = worlds.worlds.arrays["memories"]
-    action = some_actions(1, 400)[0]
+    plain.worlds.arrays["memories"][:] = worlds.worlds.arrays["memories"][:, :-1]  # which has the time for coming up
+    action = some_actions(1, 4000)[0]
     _, paid, over, *_ = worlds.step(action)
     upright = plain.step(action)[1]
-    s = worlds.worlds.states
-    energy = s[:, 20] + VEHICLE.l * (s[:, 21:24] ** 2).sum(1) / (2 * VEHICLE.g)
+    y, y_dot = worlds.worlds.states[:, 18:21], worlds.worlds.states[:, 21:24]
+    still = 1 / (1 + 2 * (1 - y[:, 2]) / 0.3**2) / (1 + (y_dot**2).sum(1) / 3.0**2)
     assert not over.any()
-    assert np.allclose(paid, upright / (1 + ((energy - 1) / 0.5) ** 2), atol=1e-6)  # float32
+    assert np.allclose(paid, upright * (0.4 + 0.6 * still), atol=1e-6)  # float32
+
+
+def test_the_shaped_swing_up_ends_when_the_rod_is_not_up_in_time():
+    worlds = VectorWorlds("swing_up", 400, shaped=True)
+    worlds.reset(seed=4)
+    by, first = np.where(worlds.worlds.states[:, 20] > 0.9, 0.3, 3.0), np.ones(400, dtype=bool)
+    early = 0
+    for k in range(1, 302):
+        seen, _, over, _, infos = worlds.step(np.full((400, 4), -0.23))  # about what carries it
+        for i in np.flatnonzero(over):
+            seen[i] = infos["final_obs"][i]
+        due = (k / 100 > by + 1e-9) & (seen[:, 20] < 0.5) | (np.linalg.norm(seen[:, :3], axis=1) > 5)
+        assert np.array_equal(over[first], due[first])
+        first, early = first & ~over, early + (k < 200) * int((first & over).sum())
+    assert early > 50
+    assert not first.all()
 
 
 def test_observations_are_relative_to_the_goal():

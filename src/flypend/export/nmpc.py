@@ -17,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.compile.c99 import PRECISIONS, SCRATCH, Precision, call, function, literal
+from flypend.compile.c99 import PRECISIONS, Precision, call, function, literal
 from flypend.compile.program import Program, lower
 from flypend.compile.scratch import scratch
-from flypend.errors import InputError
 from flypend.export.plan import SHORT, advance
 from flypend.export.source import ascii_of
 from flypend.export.write import fill
@@ -171,9 +170,12 @@ def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any
     Q_row, Q_column = Q.get_triplet()
     timings = [step_timing(lag, h * (1 - phase / PHASES)) for phase in range(PHASES)]
     here = ["x[k]", "u[k]"]
-    old, best = [*here, "&n->shared"], ["n->best.states[first + k - 1]", "n->best.commands[first + k - 1]", "&n->shared"]
+    old, best = (
+        [*here, "&n->shared"],
+        ["n->best.states[first + k - 1]", "n->best.commands[first + k - 1]", "&n->shared"],
+    )
     texts = {
-        "title": ascii_of(f"nmpc for {vehicle.name}, from a plan of {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),
+        "title": ascii_of(f"nmpc for {vehicle.name}: {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),
         "precision": precision, "rotors": n, "stages": stages, "all": stages + tail, "least": least, "phases": PHASES,
         "ahead": SUBSTEPS, "slopes": layout.of_slopes, "to_go": layout.of_to_go, "cost": layout.of_stage,
         "errors": len(programs["errors"].outputs[0]), "curved": Q.nnz(),

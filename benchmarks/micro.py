@@ -118,34 +118,35 @@ def fly(code: ctypes.CDLL, plan: fp.Plan, start: fp.State, plant: fp.Plant, late
     return fp.simulate(VEHICLE, law, start, DURATION, plant=plant), computers[0]
 
 
-def flights(code: ctypes.CDLL, name: str, runs: int, seed: int) -> str:
-    """Fly a row by C code, by nmpc and by the law; return what came of it."""
-    starts, found = fp.random_starts(runs, seed), []
+def flights(code: ctypes.CDLL, name: str, runs: int, seed: int, beside: bool) -> str:
+    """Fly a row by C code, and by nmpc `beside` it; return what came of it."""
+    starts, found, row = fp.random_starts(runs, seed), [], ROWS[name]
     for i in range(runs):
         plan = fp.plan(VEHICLE, starts[i])
         if len(plan.commands) != STAGES:
             continue
-        plant = ROWS[name].plant(i)
-        run, computer = fly(code, plan, starts[i], plant, ROWS[name].latency)
-        others = [
-            fp.simulate(VEHICLE, law, starts[i], DURATION, plant=plant)
-            for law in (fp.nmpc(latency=ROWS[name].latency), fp.laws.inverted())
-        ]
-        results = [fp.metrics(each) for each in (run, *others)]
-        found.append([plan.excursion, *(r.excursion for r in results), *(r.success for r in results), computer.flies])
+        plant = row.plant(i)
+        run, computer = fly(code, plan, starts[i], plant, row.latency)
+        result = fp.metrics(run)
+        found.append([result.success, computer.flies, result.excursion, result.excursion / plan.excursion])
+        if beside:
+            other = fp.metrics(fp.simulate(VEHICLE, fp.nmpc(latency=row.latency), starts[i], DURATION, plant=plant))
+            found[-1] += [other.success, other.excursion, result.excursion / other.excursion]
         print("  ", i, [round(float(v), 3) for v in found[-1]], computer.iterations, computer.failed, flush=True)
-    best, ours, nmpc, law, *stood, flew = np.array(found, dtype=float).T
-    counts, low_high = [int(some.sum()) for some in stood], wilson(int(stood[0].sum()), len(found))
+    stood, flies, *columns = np.array(found, dtype=float).T
+    count = int(stood.sum())
+    succeed = [count, len(found), *(round(100 * share, 1) for share in wilson(count, len(found)))]
+    names = ("excursion", "ratio to the plan", "nmpc succeeds", "nmpc", "ratio to nmpc")
     table = {
-        "excursion p50, p95": ours, "nmpc p50, p95": nmpc, "law p50, p95": law,
-        "ratio to the plan p50, p95": ours / best, "ratio to nmpc p50, p95": ours / nmpc,
-    }  # fmt: skip
-    told = {name: [float(value) for value in np.quantile(values, (0.5, 0.95))] for name, values in table.items()}
-    told |= {"worst ratio to nmpc": [float(np.max(ours / nmpc))]}
-    succeed = [counts[0], len(found), *(round(100 * share, 1) for share in low_high)]
-    record(name, succeed=succeed, nmpc=counts[1], law=counts[2], refused=int(np.sum(flew == 0)), **told)
-    parts = [f"succeed {succeed}, nmpc {counts[1]}, law {counts[2]}, refused {int(np.sum(flew == 0))}"]
-    return ", ".join([*parts, *(f"{name} {quantiles(values, 0.5, 0.95)}" for name, values in table.items())])
+        name: [float(v) for v in np.quantile(values, (0.5, 0.95, 1.0))]
+        for name, values in zip(names, columns, strict=False)
+    }
+    record(name, succeed=succeed, refused=int(np.sum(flies == 0)), **table)
+    parts = [
+        f"{name} p50, p95, most {quantiles(values, 0.5, 0.95, 1.0)}"
+        for name, values in zip(names, columns, strict=False)
+    ]
+    return ", ".join([f"succeed {succeed}, refused {int(np.sum(flies == 0))}", *parts])
 
 
 def costs(folder: Path) -> list[str]:
@@ -181,6 +182,7 @@ def main() -> None:
     parser.add_argument("--cost", action="store_true")
     parser.add_argument("--runs", type=int, default=24)
     parser.add_argument("--seed", type=int, default=8101)
+    parser.add_argument("--beside", action="store_true", help="fly nmpc from the same starts, too")
     parser.add_argument("--row", choices=ROWS, action="append")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as text:
@@ -190,7 +192,7 @@ def main() -> None:
             return
         code = library(Path(text))
         for name in asked.row or ("nominal", "mismatch"):
-            print(f"{name}: {flights(code, name, asked.runs, asked.seed)}", flush=True)
+            print(f"{name}: {flights(code, name, asked.runs, asked.seed, asked.beside)}", flush=True)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import ctypes
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -107,6 +108,7 @@ def test_iterations_are_those_of_python(coarse, exported):
     stage, rng = coarse[0].stage, np.random.default_rng(1)
     state, t = in_python.feedback.states[0].copy(), 0.0
     stages, tolerance = {"double": (16, 1e-6), "float": (8, 1e-2)}[exported[1]]
+    begun = in_c.states.copy()
     for k in range(1, stages):
         for _ in range(PHASES):
             command, _ = in_python.follower.command(t, state[:24], state[24:])
@@ -114,14 +116,13 @@ def test_iterations_are_those_of_python(coarse, exported):
             assert status == 0
             np.testing.assert_allclose(found, command, atol=10 * tolerance)
             if t > (k - 1 / PHASES) * stage - 1e-6:
-                before = in_c.states.copy()
                 assert (in_c.improve(t, state) == 0) == in_python.improve(t, state, k)
-                assert np.max(np.abs(in_c.states - before)) > 1e-4
             state = in_python.step(state[:24], state[24:], command, stage / PHASES)
             t += stage / PHASES
         state[3:6] += 0.05 * rng.normal(size=3)
         np.testing.assert_allclose(in_c.states, in_python.realtime.states[: len(in_c.states)], atol=tolerance)
         np.testing.assert_allclose(in_c.commands[:-1], in_python.realtime.commands, atol=tolerance)
+    assert np.max(np.abs(in_c.states - begun)) > 100 * tolerance
 
 
 @pytest.mark.parametrize("phase", range(PHASES))
@@ -136,7 +137,7 @@ def test_an_iteration_may_begin_within_a_stage(coarse, exported, phase):
     for k, h in ((first, rest), (first + 1, stage), (first + 2, stage)):
         here = in_c.states[k].astype(float) * OWN
         led = step(here[:24], here[24:], in_c.commands[k].astype(float) * OWN[24:], h)
-        np.testing.assert_allclose(in_c.states[k + 1] * OWN, led, atol={"double": 1e-9, "float": 1e-4}[exported[1]])
+        np.testing.assert_allclose(in_c.states[k + 1] * OWN, led, atol={"double": 1e-7, "float": 1e-5}[exported[1]])
 
 
 def flown(in_c, plan, *, improving):
@@ -157,8 +158,8 @@ def flown(in_c, plan, *, improving):
 def test_it_flies_and_iterations_make_up_for_a_blow(plan, exported):
     with_iterations, end = flown(InC(*exported), plan, improving=True)
     without, _ = flown(InC(*exported), plan, improving=False)
-    assert end < 0.02
-    assert with_iterations < 0.9 * without
+    assert end < 0.05
+    assert with_iterations < 0.5 * without
 
 
 def test_it_keeps_what_its_header_promises(plan, exported):
@@ -181,16 +182,15 @@ def test_it_keeps_what_its_header_promises(plan, exported):
     turned = start.copy()
     turned[18:21] = -turned[18:21] + 0.3
     assert in_c.command(0.0, turned)[0] == 1
-    build(folder, ["flypend_nmpc.c"], "nmpc.o", flags=("-c",))
-    needed = set(re.findall(r" U (\w+)", run(["nm", "-u", "nmpc.o"], folder)))
-    assert needed <= {"sqrt", "sqrtf", "__stack_chk_fail", "_GLOBAL_OFFSET_TABLE_", "memcpy", "memset"}
+    needed = set(re.findall(r" U (\w+)", run(["nm", "-D", "-u", "nmpc.so"], folder)))
+    assert needed <= {"sqrt", "sqrtf", "__stack_chk_fail"}
 
 
-def test_what_it_cannot_fly_is_refused(tmp_path):
-    hub, start = HEHN.replace(mount="hub"), fp.State(y=(0.6, 0, 0.8))
-    for plan, what in ((fp.plan(HEHN, start, duration=0.2), "can be flown"), (fp.plan(hub, start), "on a gimbal")):
+def test_what_it_cannot_fly_is_refused(plan, tmp_path):
+    failed, on_hub = replace(plan, status="failed", reason="late"), replace(plan, vehicle=HEHN.replace(mount="hub"))
+    for other, what in ((failed, "can be flown, got late"), (on_hub, "on a gimbal")):
         with pytest.raises(fp.InputError, match=f"plan: .*{what}"):
-            fp.export_nmpc(plan, tmp_path / "c")
+            fp.export_nmpc(other, tmp_path / "c")
     assert not (tmp_path / "c").exists()
 
 

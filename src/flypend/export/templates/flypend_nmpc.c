@@ -469,8 +469,8 @@ static real follow(const flypend_nmpc *n, volatile real *w, real t, const real *
     real nominal[STATE], begun[STATE], wanted[ROTORS], into, sum = 0;
     int i, j, k = STAGES;
     (void)w;
-    if (t < stage * (real)STAGES) {
-        k = (t > 0) ? (int)(t / stage) : 0;
+    if (t < stage * ((real)STAGES - $short)) {
+        k = (t > 0) ? (int)(t / stage + $short) : 0;
     }
     into = t - stage * (real)k - ((k == n->flown.first) ? n->flown.since : 0);
     for (i = 0; i < STATE; i++) {

@@ -72,7 +72,7 @@ def hanging() -> fp.Plan:
 
 
 class OnBoard(Boards):
-    """The flight computer of one flight by C `code`, begun with a `table`; once it refuses, the law flies."""
+    """The flight computer of one flight by C `code`, begun with a `table`; when it ends or refuses, the law flies."""
 
     def __init__(self, code: ctypes.CDLL, table: Any, stage: float, latency: float, loop: Any, rotors: Any) -> None:
         super().__init__(loop, fallback_law(None, fp.laws.references.hover()), latency, rotors)
@@ -80,22 +80,22 @@ class OnBoard(Boards):
         self._memory = np.zeros(MEMORY, np.float32)
         code.flypend_nmpc_begin(_address(self._memory), _address(table))
         self._next = 0
-        self.flies, self.failed, self.iterations = True, 0, 0
+        self.status, self.failed, self.iterations = 0, 0, 0
 
     def planned(self, t: float, state: Any, rotors: Any, outside: Any) -> Any:
         """See `Boards`."""
-        if not self.flies:
+        if self.status:
             return None
         given = [np.asarray(part, np.float32) for part in (state, rotors)]
         found, when = np.zeros(4, np.float32), ctypes.c_float(t)
         everything = [_address(self._memory), when, *(_address(part) for part in given)]
-        self.flies = not self._code.flypend_nmpc_command(*everything, _address(found))
+        self.status = self._code.flypend_nmpc_command(*everything, _address(found))
         if t + 1e-6 >= self._next * self._tick:
             self._next += 1
             done = self._code.flypend_nmpc_improve(*everything)
             self.iterations += done < 2
             self.failed += done == 1
-        return found.astype(float) if self.flies else None
+        return None if self.status else found.astype(float)
 
 
 def _address(array: Any) -> ctypes.c_void_p:
@@ -128,12 +128,12 @@ def flights(code: ctypes.CDLL, name: str, runs: int, seed: int, beside: bool) ->
         plant = row.plant(i)
         run, computer = fly(code, plan, starts[i], plant, row.latency)
         result = fp.metrics(run)
-        found.append([result.success, computer.flies, result.excursion, result.excursion / plan.excursion])
+        found.append([result.success, computer.status, result.excursion, result.excursion / plan.excursion])
         if beside:
             other = fp.metrics(fp.simulate(VEHICLE, fp.nmpc(latency=row.latency), starts[i], DURATION, plant=plant))
             found[-1] += [other.success, other.excursion, result.excursion / other.excursion]
         print("  ", i, [round(float(v), 3) for v in found[-1]], computer.iterations, computer.failed, flush=True)
-    stood, flies, *columns = np.array(found, dtype=float).T
+    stood, status, *columns = np.array(found, dtype=float).T
     count = int(stood.sum())
     succeed = [count, len(found), *(round(100 * share, 1) for share in wilson(count, len(found)))]
     names = ("excursion", "ratio to the plan", "nmpc succeeds", "nmpc", "ratio to nmpc")
@@ -141,12 +141,12 @@ def flights(code: ctypes.CDLL, name: str, runs: int, seed: int, beside: bool) ->
         name: [float(v) for v in np.quantile(values, (0.5, 0.95, 1.0))]
         for name, values in zip(names, columns, strict=False)
     }
-    record(name, succeed=succeed, refused=int(np.sum(flies == 0)), **table)
+    record(name, succeed=succeed, refused=int(np.sum(status == 1)), **table)
     parts = [
         f"{name} p50, p95, most {quantiles(values, 0.5, 0.95, 1.0)}"
         for name, values in zip(names, columns, strict=False)
     ]
-    return ", ".join([f"succeed {succeed}, refused {int(np.sum(flies == 0))}", *parts])
+    return ", ".join([f"succeed {succeed}, refused {int(np.sum(status == 1))}", *parts])
 
 
 def costs(folder: Path) -> list[str]:
@@ -158,10 +158,11 @@ def costs(folder: Path) -> list[str]:
     lines = [f"operations: {counted}, entries of F {layout.of_slopes}"]
     export_nmpc(plan, folder)
     (folder / "main.c").write_text(MAIN)
+    start, compiler = str(cortex.HERE / "start.c"), ("arm-none-eabi-gcc", *cortex.FLAGS, "-std=gnu99", "-O2")
+    subprocess.run((*compiler, "-c", "flypend_nmpc.c"), cwd=folder, check=True)
     for name, kick in (("improve", 0.0), ("improve", KICK), ("command", 0.0)):
-        words = (*cortex.FLAGS, "-std=gnu99", "-O2", f"-DKICK={kick}f", *cortex.LINKED, "main.c", "flypend_nmpc.c")
-        built = ("arm-none-eabi-gcc", *words, str(cortex.HERE / "start.c"), "-lm", "-o", "main.elf")
-        subprocess.run(built, cwd=folder, check=True)
+        words = (f"-DKICK={kick}f", *cortex.LINKED, "main.c", "flypend_nmpc.o", start, "-lm", "-o", "main.elf")
+        subprocess.run((*compiler, *words), cwd=folder, check=True)
         ((count, spent),) = cortex.executed(folder / "main.elf", f"flypend_nmpc_{name}")
         told = f"{name} (all lengths)" if kick else name
         times = {f"M4 cycles {where}": spent / hertz for where, hertz in CLOCKS.items()}

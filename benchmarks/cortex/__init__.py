@@ -27,6 +27,11 @@ def executed(elf: Path, function: str) -> list[tuple[int, int]]:
     """Instructions and cycles of each call of `function`, as in `cycles`."""
     code = disassembled(elf)
     entry = next(at for at, (_, _, _, name) in code.items() if name == function)
+    # Of each instruction what follows it, and what it costs if that comes next, and if not.
+    prices = {
+        at: (at + size, cost(word, operands, taken=False), cost(word, operands))
+        for at, (word, operands, size, _) in code.items()
+    }
     trace = elf.with_suffix(".trace")
     semihosting = ("-semihosting-config", "enable=on,target=native")
     steps = ("-singlestep", "-d", "exec,nochain", "-D", str(trace))
@@ -36,8 +41,9 @@ def executed(elf: Path, function: str) -> list[tuple[int, int]]:
         for line in lines:
             at = int(line.split("/", 2)[1], 16)
             if back is not None and before is not None:
+                following, straight, taken = prices[before]
                 count += 1
-                spent += cost(*code[before][:2], taken=at != before + code[before][2])
+                spent += straight if at == following else taken
             if at == back:
                 calls.append((count, spent))
                 back = None

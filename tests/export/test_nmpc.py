@@ -141,24 +141,23 @@ def test_an_iteration_may_begin_within_a_stage(coarse, exported, phase):
 
 
 def flown(in_c, plan, *, improving):
-    """Excursion, and distance from hover at the end, of a flight that is struck in mid-throw."""
-    state, step, farthest = np.append(plan.packed[0], plan.rotor_forces[0]), stepping(HEHN), 0.0
-    for i in range(1800):
-        t = 0.002 * i
-        status, command = in_c.command(t, state)
-        assert status == 0
+    """Excursion, and distance from hover when the plan ends, of a flight that is struck in mid-throw."""
+    state, step, farthest, i = np.append(plan.packed[0], plan.rotor_forces[0]), stepping(HEHN), 0.0, 0
+    while (found := in_c.command(0.002 * i, state))[0] == 0:
         if improving and i % 10 == 0:
-            in_c.improve(t, state)
-        state = step(state[:24], state[24:], command, 0.002)
+            in_c.improve(0.002 * i, state)
+        state = step(state[:24], state[24:], found[1], 0.002)
         state[3] += 0.8 * (i == 300)
-        farthest = max(farthest, np.linalg.norm(state[:3]))
+        farthest, i = max(farthest, np.linalg.norm(state[:3])), i + 1
+    assert found[0] == 2
+    assert 0.002 * i == pytest.approx(plan.duration, abs=0.003)
     return farthest, np.linalg.norm(state[:3]) + np.linalg.norm(state[18:21] - [0, 0, 1])
 
 
 def test_it_flies_and_iterations_make_up_for_a_blow(plan, exported):
     with_iterations, end = flown(InC(*exported), plan, improving=True)
     without, _ = flown(InC(*exported), plan, improving=False)
-    assert end < 0.05
+    assert end < 0.1
     assert with_iterations < 0.5 * without
 
 

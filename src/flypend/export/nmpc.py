@@ -26,7 +26,7 @@ from flypend.export.write import fill
 from flypend.files.staging import staging
 from flypend.planning.coarse import coarsened
 from flypend.planning.dynamics import LEAST_ROOM, Stage, Units
-from flypend.planning.feedback import deviation, hovering, regulator
+from flypend.planning.feedback import deviation, regulator
 from flypend.planning.inequalities import HIGH, LOW, SHARED, Barrier, Structure
 from flypend.planning.problem import Request
 from flypend.planning.real_time import MOST_FAILED, SETTINGS, SUBSTEPS, SUNK
@@ -128,21 +128,21 @@ def _function(name: str, inputs: Sequence[Any], *outputs: Any) -> ca.Function:
 
 
 def table_of(plan: Plan) -> tuple[Array, Array, Array]:
-    """Return states (stages + 1, 24 + n) and commands (stages + 1, n) of a `plan`, own units, and its gains, SI units.
+    """Return states (stages + 1, 24 + n) and commands (stages + 1, n) of a `plan`, own units, the last of them hover.
 
-    The last of each is hover, and gains are (stages + 1, n, 18 + n).
+    Then its gains (stages, n, 18 + n), SI units.
     """
     feedback, units = regulator(plan), Units.of(plan.vehicle)
     states = feedback.states.copy()
     states[:, :3] -= plan.target
-    return states / units.states(feedback.commands.shape[1]), feedback.commands / units.force, feedback.gains
+    return states / units.states(feedback.commands.shape[1]), feedback.commands / units.force, feedback.gains[:-1]
 
 
 def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any]:
     """Return what the templates take for a coarse `plan` that answers what is `asked`."""
     vehicle, units, n = plan.vehicle, Units.of(plan.vehicle), asked.rotors
     programs, layout = programs_of(asked)
-    flown = {made.name(): lower(made) for made in (advance(plan.vehicle), deviation(n), hovering(n))}
+    flown = {made.name(): lower(made) for made in (advance(plan.vehicle), deviation(n))}
     everything = programs | flown
     stages, h = len(plan.commands), plan.stage / units.time
     least, tail = sizes(stages)
@@ -229,6 +229,5 @@ def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any
         "call_advance": calling("advance", ["begun", "wanted", "&into"], ["nominal"], "w"),
         "call_advance_here": calling("advance", ["begun", "wanted", "&into"], ["nominal"]),
         "call_deviation": calling("deviation", ["nominal", "here"], ["off"], "w"),
-        "call_hovering": calling("hovering", ["nominal", "here"], ["off"], "w"),
     }  # fmt: skip
     return {name: str(text) for name, text in texts.items()}

@@ -467,27 +467,23 @@ static real join(real t, const real *state, const real *rotors, real *here)
 static real follow(const flypend_nmpc *n, volatile real *w, real t, const real *here, real *command, real *off)
 {
     real nominal[STATE], begun[STATE], wanted[ROTORS], into, sum = 0;
-    int i, j, k = STAGES;
+    int i, j, k = STAGES - 1;
     (void)w;
-    if (t < stage * ((real)STAGES - $short)) {
+    if (t < stage * ((real)k - $short)) {
         k = (t > 0) ? (int)(t / stage + $short) : 0;
     }
     into = t - stage * (real)k - ((k == n->flown.first) ? n->flown.since : 0);
     for (i = 0; i < STATE; i++) {
-        begun[i] = ((k < STAGES) ? n->flown.states : n->begun->states)[k][i] * units[i] + ((i < 3) ? target[i] : 0);
+        begun[i] = n->flown.states[k][i] * units[i] + ((i < 3) ? target[i] : 0);
         nominal[i] = begun[i];
     }
     for (i = 0; i < ROTORS; i++) {
-        wanted[i] = ((k < STAGES) ? n->flown.commands : n->begun->commands)[k][i] * units[24];
+        wanted[i] = n->flown.commands[k][i] * units[24];
     }
-    if ((k < STAGES) && (into > $short * stage)) {
+    if (into > $short * stage) {
         $call_advance
     }
-    if (k < STAGES) {
-        $call_deviation
-    } else {
-        $call_hovering
-    }
+    $call_deviation
     for (i = 0; i < ROTORS; i++) {
         command[i] = wanted[i];
         for (j = 0; j < OFF; j++) {
@@ -516,6 +512,9 @@ int flypend_nmpc_command(flypend_nmpc *n, real t, const real *state, const real 
         n->flown.first = n->best.first;
         n->flown.since = n->best.since;
         n->ready = 0;
+    }
+    if ((sum >= 0) && (t >= stage * (real)STAGES)) {
+        return 2;
     }
     sum += follow(n, n->control_scratch, t, here, forces, off);
     rod = squared(off + 12);

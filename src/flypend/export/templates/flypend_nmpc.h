@@ -17,7 +17,7 @@
 #define FLYPEND_NMPC_STAGES $stages
 #define FLYPEND_NMPC_STAGE $stage /* s */
 #define FLYPEND_NMPC_TICK $tick /* s */
-#define FLYPEND_NMPC_DURATION $duration /* s; then it hovers */
+#define FLYPEND_NMPC_DURATION $duration /* s; then a law hovers */
 
 #ifndef FLYPEND_LAW_H
 typedef $precision flypend_real;
@@ -35,13 +35,13 @@ enum {
     FLYPEND_NMPC_SCRATCH = $scratch
 };
 
-/* A plan to begin with, in units of its own about the target: nominal states and rotor forces at the beginning of each
- * stage, commands, and gains in SI units; the last of each is hover. Other plans for the same vehicle and target, with as
- * many stages of the same duration, may take the place of the exported one. */
+/* A plan to begin with: nominal states and rotor forces at the beginning of each stage and at the end, and commands, the
+ * last for hover, all in units of its own about the target; gains in SI units. Other plans for the same vehicle and target,
+ * with as many stages of the same duration, may take the place of the exported one. */
 typedef struct {
     flypend_real states[FLYPEND_NMPC_STAGES + 1][FLYPEND_NMPC_STATE];
     flypend_real commands[FLYPEND_NMPC_STAGES + 1][FLYPEND_NMPC_ROTORS];
-    flypend_real gains[FLYPEND_NMPC_STAGES + 1][FLYPEND_NMPC_ROTORS][18 + FLYPEND_NMPC_ROTORS];
+    flypend_real gains[FLYPEND_NMPC_STAGES][FLYPEND_NMPC_ROTORS][18 + FLYPEND_NMPC_ROTORS];
 } flypend_nmpc_table;
 extern const flypend_nmpc_table flypend_nmpc_exported;
 
@@ -78,8 +78,11 @@ typedef struct {
 void flypend_nmpc_begin(flypend_nmpc *nmpc, const flypend_nmpc_table *plan);
 
 /* Rotor forces (N), within their limits, for a state and the forces of the rotors at time t (s), before 0 as at 0.
- * Returns 0; or 1, and leaves `command`, if rod or pivot are too far from the plan, $most_failed iterations in a row
- * failed, an input is not a finite number, or the answer would not be: then another law has to take over, for good. */
+ * Returns 0, or leaves `command` and returns
+ *   1 if rod or pivot are too far from the plan, $most_failed iterations in a row failed, an input is not a finite number,
+ *     or the answer would not be;
+ *   2 if the plan has ended.
+ * Then a law has to take over, for good. */
 int flypend_nmpc_command(flypend_nmpc *nmpc, flypend_real t, const flypend_real *state, const flypend_real *rotors,
     flypend_real *command);
 

@@ -70,7 +70,8 @@ def export_nmpc(plan: Plan, folder: str | Path, *, precision: Precision = "float
     Raises
     ------
     InputError
-        If the plan failed, has constraints, or cannot be flown in so few stages.
+        If the plan failed, does not end in inverted hover, has a path or windows, or cannot be flown in so few stages,
+        or its vehicle has a hub or cup.
     """
     errors.one_of("precision", precision, PRECISIONS)
     values = values_of(*coarsened(plan, COARSER), precision)

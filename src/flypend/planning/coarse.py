@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from flypend.errors import InputError
+from flypend.laws.references import sample
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.planning.inequalities import EFFORT
@@ -19,14 +20,17 @@ from flypend.planning.verdict import plans_of
 def coarsened(plan: Plan, many: int) -> tuple[Plan, Request]:
     """Return `plan` solved again with stages `many` times as long, and the request that it answers.
 
-    Raises InputError if it failed, keeps constraints that it does not tell of, or cannot be flown in such stages.
+    Raises InputError if it failed, does not end in inverted hover, has a path, windows or a mount that limits the rod,
+    or cannot be flown in such stages. Constraints that a plan does not tell of, such as a box, are not kept.
     """
     if not isinstance(plan, Plan) or not plan:
         raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
     if plan.path is not None or plan.windows or plan.vehicle.mount != "gimbal":
         raise InputError("plan", "one without path and windows, on a gimbal", f"{plan!r}")
     start, per_stage = State.trusted(plan.packed[0]), (len(plan.t) - 1) // len(plan.commands)
-    asked = request(plan.vehicle, start, plan.objective, plan.target, plan.rotor_forces[0])
+    rotors = np.clip(plan.rotor_forces[0], *plan.vehicle.rotor_limits)
+    (target,) = sample(plan.reference, np.array([plan.duration]))
+    asked = request(plan.vehicle, start, plan.objective, target, rotors)
     asked.numbers[EFFORT] *= many  # a stage lasts so much longer
     stages, n = math.ceil(len(plan.commands) / many), asked.rotors
     hover, left = asked.rest, stages * many - len(plan.commands)

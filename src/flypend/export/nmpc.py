@@ -91,17 +91,11 @@ def programs_of(asked: Request) -> tuple[dict[str, Program], Layout]:
     barrier, numbers = Barrier(stage, Structure()), ca.DM(asked.numbers)
     vehicle = ca.SX(ca.DM(asked.units.numbers(asked.vehicle)))
 
-    def baked(*parts: ca.SX) -> list[ca.SX]:
-        return ca.substitute([*parts], [stage.machine.numbers], [vehicle])
-
-    gap, A, B = stage.derivatives()
-    gap, A, B = baked(gap, A, B)
-    A, B = ca.sparsify(A), ca.sparsify(B)
+    parts = ca.substitute([*stage.derivatives()], [stage.machine.numbers], [vehicle])
+    gap, A, B = parts[0], *map(ca.sparsify, parts[1:])
     layout = Layout(A.sparsity(), B.sparsity(), barrier.pattern + ca.Sparsity.diag(stage.coordinates))
-    found = {"linearised": stage.linearised(gap, layout.slopes(A, B))}
-    before, after, command, timing, _ = found["linearised"].sx_in()
-    found["linearised"] = _function("linearised", [before, after, command, timing], gap, layout.slopes(A, B))
-
+    inputs = [stage.before, stage.after, stage.command, stage.timing]
+    found = {"linearised": _function("linearised", inputs, gap, layout.slopes(A, B))}
     state, given, shared = ca.SX.sym("state", 24 + n), ca.SX.sym("command", n), ca.SX.sym("shared")
     slack, dual = (ca.SX.sym(name, barrier.inequalities) for name in ("s", "z"))
     moves = [ca.SX.sym("delta", stage.coordinates), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
@@ -112,8 +106,8 @@ def programs_of(asked: Request) -> tuple[dict[str, Program], Layout]:
     found["terms"] = _function("terms", [state, given, shared, slack, dual], cost)
     _, change, shares = barrier.steps()(*point, slack, dual, mu, *moves)
     found["steps"] = _function("steps", [state, given, shared, slack, dual, *moves], change, shares[1])
-    errors_, to_go = barrier.end(layout)(state, numbers, SETTINGS.end_weight, np.zeros(barrier.end_size))
-    found["errors"] = _function("errors", [state], errors_)
+    missed, to_go = barrier.end(layout)(state, numbers, SETTINGS.end_weight, np.zeros(barrier.end_size))
+    found["errors"] = _function("errors", [state], missed)
     found["ending"] = _function("ending", [state], to_go)
 
     rollout = stage.rollout()

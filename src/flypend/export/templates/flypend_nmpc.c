@@ -44,12 +44,13 @@ static real size_of(real a) { return (a < 0) ? -a : a; }
 static real least(real a, real b) { return (b < a) ? b : a; }
 static real most(real a, real b) { return (b > a) ? b : a; }
 
-/* The natural logarithm, by halving or doubling to around 1 and the series of the area tangent. */
+/* The natural logarithm, by halving or doubling to around 1 and the series of the area tangent. What no slack is, none or
+ * beyond all bounds, costs so much that a step to it fails. */
 static real log_of(real x)
 {
     real twos = 0, s, power, sum = 0;
     int k;
-    if (!(x > $tiny)) {
+    if (!((x > $tiny) && (x < $huge))) {
         return -$huge;
     }
     for (; x < $low_256; x *= 256) {

@@ -138,6 +138,12 @@ def test_an_iteration_may_begin_within_a_stage(coarse, exported, phase):
         here = in_c.states[k].astype(float) * OWN
         led = step(here[:24], here[24:], in_c.commands[k].astype(float) * OWN[24:], h)
         np.testing.assert_allclose(in_c.states[k + 1] * OWN, led, atol={"double": 1e-7, "float": 1e-5}[exported[1]])
+    # Where it was predicted to be, the flight takes the command as planned.
+    status, command = in_c.command(first * stage + phase * stage / PHASES, in_c.states[first] * OWN)
+    assert status == 0
+    np.testing.assert_allclose(
+        command, in_c.commands[first] * OWN[24:], atol={"double": 1e-5, "float": 1e-3}[exported[1]]
+    )
 
 
 def flown(in_c, plan, *, improving):

@@ -20,23 +20,35 @@ QEMU = ("qemu-system-arm", "-M", "mps2-an386", "-display", "none", "-monitor", "
 
 def cycles(elf: Path, function: str) -> list[int]:
     """Cycles of each call of `function`, which is called by BL, while the program `elf` runs."""
+    return [spent for _, spent in executed(elf, function)]
+
+
+def executed(elf: Path, function: str) -> list[tuple[int, int]]:
+    """Instructions and cycles of each call of `function`, as in `cycles`."""
     code = disassembled(elf)
     entry = next(at for at, (_, _, _, name) in code.items() if name == function)
+    # Of each instruction what follows it, and what it costs if that comes next, and if not.
+    prices = {
+        at: (at + size, cost(word, operands, taken=False), cost(word, operands))
+        for at, (word, operands, size, _) in code.items()
+    }
     trace = elf.with_suffix(".trace")
     semihosting = ("-semihosting-config", "enable=on,target=native")
     steps = ("-singlestep", "-d", "exec,nochain", "-D", str(trace))
     subprocess.run([*QEMU, *semihosting, *steps, "-kernel", str(elf)], check=True, capture_output=True)
-    calls, back, spent, before = [], None, 0, None
+    calls, back, count, spent, before = [], None, 0, 0, None
     with trace.open() as lines:
         for line in lines:
             at = int(line.split("/", 2)[1], 16)
             if back is not None and before is not None:
-                spent += cost(*code[before][:2], taken=at != before + code[before][2])
+                following, straight, taken = prices[before]
+                count += 1
+                spent += straight if at == following else taken
             if at == back:
-                calls.append(spent)
+                calls.append((count, spent))
                 back = None
             if back is None and at == entry and before is not None:
-                back, spent = before + code[before][2], 0
+                back, count, spent = before + code[before][2], 0, 0
             before = at
     trace.unlink()
     return calls

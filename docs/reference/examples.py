@@ -588,6 +588,12 @@ import flypend as fp
 plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0.6, 0, 0.8)))
 fp.export_plan(plan, "table")  # flypend_plan.c and .h
 
+# %% export_nmpc
+import flypend as fp
+
+plan = fp.plan(fp.vehicle("hehn2011"), fp.State(y=(0, 0, -1)))
+fp.export_nmpc(plan, "nmpc")  # flypend_nmpc.c and .h
+
 # %% nmpc | planning-phases.svg: Who flies when: waiting, planned, hovering
 import flypend as fp
 

@@ -4,6 +4,7 @@ from flypend import laws as laws
 from flypend.errors import InputError as InputError
 from flypend.export import export_app as export_app
 from flypend.export import export_c as export_c
+from flypend.export import export_nmpc as export_nmpc
 from flypend.export import export_plan as export_plan
 from flypend.flight.criterion import Criterion as Criterion
 from flypend.flight.ensemble import Ensemble as Ensemble

@@ -122,6 +122,6 @@ def test_a_bad_ending_is_refused_before_any_work(tmp_path):
         cli.app(["plan", "-o", str(tmp_path / "plan.html")], standalone_mode=False)
 
 
-def test_what_plans_in_flight_is_not_exported(tmp_path):
-    with pytest.raises(fp.InputError, match=r"nmpc, which is not \(it solves a problem in every stage\)"):
-        cli.app(["export-c", "--law", "nmpc", "--out", str(tmp_path / "c")], standalone_mode=False)
+def test_what_plans_at_its_first_measurement_is_not_exported(tmp_path):
+    with pytest.raises(fp.InputError, match=r"plan, which is not \(it plans each flight and follows a table\)"):
+        cli.app(["export-c", "--law", "plan", "--out", str(tmp_path / "c")], standalone_mode=False)

@@ -33,26 +33,35 @@ if TYPE_CHECKING:
 def export_c(
     law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
 ) -> None:
-    """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export."""
+    """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export.
+
+    With nmpc, it is that of the inverted law, and beside it a plan from hanging at rest that is improved in flight.
+    """
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
+    from flypend.export import export_nmpc
     from flypend.files.staging import check_writable
     from flypend.laws import inverted
+    from flypend.planning.planner import plan
     from flypend.plants import SUITES
 
     check_writable(out)
     if light:
         errors.one_of("--law", law, ("inverted",))
-    chosen = inverted(form="light") if light else _symbolic(law)
+    chosen = inverted(form="light") if light else inverted() if law == "nmpc" else _symbolic(law)
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
         errors.one_of("--sensors", sensors, SUITES)
         machine = model.vehicle(vehicle)
+        if law == "nmpc":
+            export_nmpc(plan(machine, model.State(y=(0, 0, -1))), out, precision=kind)
         write(chosen, machine, out, precision=kind, rate=rate, sensors=sensors, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
+    if law == "nmpc":
+        console.print(f"C code of the plan is in {bold(out / 'flypend_nmpc.c')}; its header says how to fly it.")
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 

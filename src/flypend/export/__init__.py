@@ -2,7 +2,8 @@
 
 from flypend.export.app import export_app
 from flypend.export.library import compiled
+from flypend.export.nmpc import export_nmpc
 from flypend.export.plan import export_plan
 from flypend.export.write import export_c
 
-__all__ = ["compiled", "export_app", "export_c", "export_plan"]
+__all__ = ["compiled", "export_app", "export_c", "export_nmpc", "export_plan"]

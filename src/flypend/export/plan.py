@@ -15,6 +15,7 @@ from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.source import ascii_of
 from flypend.files.staging import staging
+from flypend.model import Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Units
 from flypend.planning.feedback import deviation, hovering, regulator
@@ -152,7 +153,7 @@ def files(plan: Plan, precision: Precision) -> dict[str, str]:
 def _values(plan: Plan, precision: Precision) -> dict[str, Any]:
     feedback, vehicle = regulator(plan), plan.vehicle
     n, (low, high) = len(vehicle.rotor_spins), vehicle.rotor_limits
-    programs = [lower(made) for made in (_advance(plan), deviation(n), hovering(n))]
+    programs = [lower(made) for made in (advance(vehicle), deviation(n), hovering(n))]
 
     def number(value: float) -> str:
         return literal(float(value), precision)
@@ -177,12 +178,12 @@ def _values(plan: Plan, precision: Precision) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _advance(plan: Plan) -> ca.Function:
+def advance(vehicle: Vehicle) -> ca.Function:
     """Return (state with rotor forces, command, time) → state with rotor forces after that time of a stage."""
-    n, lag = len(plan.vehicle.rotor_spins), plan.vehicle.rotor_lag
+    n, lag = len(vehicle.rotor_spins), vehicle.rotor_lag
     begin, command, into = ca.SX.sym("begin", SIZE + n), ca.SX.sym("command", n), ca.SX.sym("into")
     timing = symbolic_timing(lag, into, _exponential) if lag > 0 else ca.vertcat(into, 0, 0, 0)
-    step = rotor_step(plan.vehicle, windy=False)
+    step = rotor_step(vehicle, windy=False)
     moved, rotors = step(begin[:SIZE], begin[SIZE:], command, np.zeros(6), timing)
     return ca.Function("advance", [begin, command, into], [ca.densify(ca.cse(ca.vertcat(moved, rotors)))])
 

@@ -1,0 +1,228 @@
+"""A plan that is planned again in flight, as C99 of fixed work: see `planning.real_time` for the method.
+
+Stage, derivatives, barrier and end are the programs of `planning`, with the vehicle's numbers in them. The loops around
+them are those of `planning.solver` and `compile/loops/riccati.cpp`, written for a processor with little memory: no cost
+to go is kept, since its slopes along a step are the multipliers, which a recursion through the stages gives as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from flypend import errors
+from flypend.compile.c99 import PRECISIONS, Precision, call, function, literal
+from flypend.compile.program import Program, lower
+from flypend.compile.scratch import scratch
+from flypend.export.plan import SHORT, advance
+from flypend.export.source import ascii_of
+from flypend.export.write import fill
+from flypend.files.staging import staging
+from flypend.planning.coarse import coarsened
+from flypend.planning.dynamics import LEAST_ROOM, Stage, Units
+from flypend.planning.feedback import deviation, regulator
+from flypend.planning.inequalities import HIGH, LOW, SHARED, Barrier, Structure
+from flypend.planning.problem import Request
+from flypend.planning.real_time import MOST_FAILED, SETTINGS, SUBSTEPS, SUNK
+from flypend.planning.result import Plan
+from flypend.planning.riccati import Layout
+from flypend.planning.tracking import FAR_PIVOT, FAR_ROD
+from flypend.plants.lag import step_timing
+
+Array = NDArray[np.float64]
+
+NAME = "flypend_nmpc"
+# Stages last so many of a plan's. Of 150 stages of 20 ms on hehn2011 50 are left; in 38, excursions are up to a fifth
+# larger.
+COARSER = 3
+PHASES = 3  # iterations in a stage: one every 20 ms on hehn2011
+# Shares of the stages of the horizon that remain at least, and of those of hover behind the plan: a third and two
+# thirds, as in `real_time`.
+LEAST, TAIL = 1 / 3, 2 / 3
+LOG_TERMS = {"float": 4, "double": 10}  # of the series of the logarithm, whose argument is at most 0.172
+# By this share of the merit a step may raise it: what rounding does to some 500 sums.
+ROUNDING = {"float": 1e-6, "double": 0.0}
+TINY = {"float": 1e-30, "double": 1e-300}  # numbers whose logarithm is not taken: a slack that is used up
+
+
+@errors.named_arguments
+def export_nmpc(plan: Plan, folder: str | Path, *, precision: Precision = "float") -> None:
+    """Write `plan` with iterations that improve it in flight as flypend_nmpc.h and flypend_nmpc.c.
+
+    It is C99 without allocation, with a bounded number of operations per call, in stages three times as long as the
+    plan's. External forces and wrong masses are not estimated; feedback and iterations correct for them.
+
+    Parameters
+    ----------
+    plan : Plan
+        A plan that can be flown, without constraints beyond the limits of the rotors, on a gimbal.
+    folder : path
+        Folder to write; an earlier one of the package is replaced.
+    precision : "float" or "double"
+        Type of all numbers.
+
+    Raises
+    ------
+    InputError
+        If the plan failed, does not end in inverted hover, has a path or windows, or cannot be flown in so few stages,
+        or its vehicle has a hub or cup.
+    """
+    errors.one_of("precision", precision, PRECISIONS)
+    values = values_of(*coarsened(plan, COARSER), precision)
+    with staging(folder) as into:
+        for name in (f"{NAME}.h", f"{NAME}.c"):
+            (into / name).write_text(fill(name, values), encoding="ascii")
+
+
+def sizes(stages: int) -> tuple[int, int]:
+    """Return the least number of stages of a horizon, and of hover behind a plan, of so many `stages`."""
+    return math.ceil(LEAST * stages), math.ceil(TAIL * stages)
+
+
+def programs_of(asked: Request) -> tuple[dict[str, Program], Layout]:
+    """Return the programs of an iteration of what is `asked`, by name, and how their matrices lie in memory."""
+    n, stage = asked.rotors, Stage(asked.rotors)
+    barrier, numbers = Barrier(stage, Structure()), ca.DM(asked.numbers)
+    vehicle = ca.SX(ca.DM(asked.units.numbers(asked.vehicle)))
+
+    parts = ca.substitute([*stage.derivatives()], [stage.machine.numbers], [vehicle])
+    gap, A, B = parts[0], *map(ca.sparsify, parts[1:])
+    layout = Layout(A.sparsity(), B.sparsity(), barrier.pattern + ca.Sparsity.diag(stage.coordinates))
+    inputs = [stage.before, stage.after, stage.command, stage.timing]
+    found = {"linearised": _function("linearised", inputs, gap, layout.slopes(A, B))}
+    state, given, shared = ca.SX.sym("state", 24 + n), ca.SX.sym("command", n), ca.SX.sym("shared")
+    slack, dual = (ca.SX.sym(name, barrier.inequalities) for name in ("s", "z"))
+    moves = [ca.SX.sym("delta", stage.coordinates), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
+    point, mu = [state, given, shared, numbers, vehicle], SETTINGS.barrier
+    summary, new = barrier.values()(*point, slack, 0)
+    found["values"] = _function("values", [state, given, shared], summary[0], new)
+    cost = barrier.terms(layout)(*point, slack, dual, mu)
+    found["terms"] = _function("terms", [state, given, shared, slack, dual], cost)
+    _, change, shares = barrier.steps()(*point, slack, dual, mu, *moves)
+    found["steps"] = _function("steps", [state, given, shared, slack, dual, *moves], change, shares[1])
+    missed, to_go = barrier.end(layout)(state, numbers, SETTINGS.end_weight, np.zeros(barrier.end_size))
+    found["errors"] = _function("errors", [state], missed)
+    found["ending"] = _function("ending", [state], to_go)
+
+    rollout = stage.rollout()
+    nominal, old, held, gains, at, length, epsilon, _, timed, _ = rollout.sx_in()
+    limits = ca.DM([asked.numbers[LOW], asked.numbers[HIGH], SETTINGS.room])
+    led = rollout(nominal, old, held, gains, at, length, epsilon, limits, timed, vehicle)
+    found["rollout"] = _function("rollout", [nominal, old, held, gains, at, length, epsilon, timed], *led)
+    return {name: lower(made) for name, made in found.items()}, layout
+
+
+def _function(name: str, inputs: Sequence[Any], *outputs: Any) -> ca.Function:
+    return ca.Function(name, [*inputs], ca.cse([ca.densify(output) for output in outputs]))
+
+
+def table_of(plan: Plan) -> tuple[Array, Array, Array]:
+    """Return states (stages + 1, 24 + n) and commands (stages + 1, n) of a `plan`, own units, the last of them hover.
+
+    Then its gains (stages, n, 18 + n), SI units.
+    """
+    feedback, units = regulator(plan), Units.of(plan.vehicle)
+    states = feedback.states.copy()
+    states[:, :3] -= plan.target
+    return states / units.states(feedback.commands.shape[1]), feedback.commands / units.force, feedback.gains[:-1]
+
+
+def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any]:
+    """Return what the templates take for a coarse `plan` that answers what is `asked`."""
+    vehicle, units, n = plan.vehicle, Units.of(plan.vehicle), asked.rotors
+    programs, layout = programs_of(asked)
+    flown = {made.name(): lower(made) for made in (advance(plan.vehicle), deviation(n))}
+    everything = programs | flown
+    stages, h = len(plan.commands), plan.stage / units.time
+    least, tail = sizes(stages)
+    of_state, lag = units.states(n), vehicle.rotor_lag / units.time
+    own, forces, gains = table_of(plan)
+    low, high = (float(limit) for limit in asked.numbers[LOW : HIGH + 1])
+    inside = SETTINGS.inside * (high - low)
+
+    def number(value: float) -> str:
+        return literal(float(value), precision)
+
+    def numbers(values: Any) -> str:
+        return ", ".join(number(value) for value in values)
+
+    def rows(values: Any) -> str:
+        return ",\n".join(f"    {{{numbers(row)}}}" for row in values)
+
+    def integers(values: Any) -> str:
+        return ", ".join(str(int(value)) for value in values)
+
+    def calling(name: str, inputs: Sequence[str], outputs: Sequence[str], memory: str = "n->scratch") -> str:
+        return call(everything[name], inputs, outputs, memory)
+
+    F, Q = layout.F, layout.Q
+    Q_row, Q_column = Q.get_triplet()
+    timings = [step_timing(lag, h * (1 - phase / PHASES)) for phase in range(PHASES)]
+    here = ["x[k]", "u[k]"]
+    old, best = (
+        [*here, "&n->shared"],
+        ["n->best.states[first + k - 1]", "n->best.commands[first + k - 1]", "&n->shared"],
+    )
+    texts = {
+        "title": ascii_of(f"nmpc for {vehicle.name}: {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),
+        "precision": precision, "rotors": n, "stages": stages, "all": stages + tail, "least": least, "phases": PHASES,
+        "ahead": SUBSTEPS, "slopes": layout.of_slopes, "to_go": layout.of_to_go, "cost": layout.of_stage,
+        "errors": len(programs["errors"].outputs[0]), "curved": Q.nnz(),
+        "scratch": max(scratch(program).size for program in everything.values()),
+        "stage": number(plan.stage), "tick": number(plan.stage / PHASES), "duration": number(plan.duration),
+        "timings": rows(timings), "units": numbers(of_state), "target": numbers(plan.target),
+        "states": rows(own), "commands": rows(forces),
+        "gains": ",\n".join(f"    {{\n{rows(each)}\n    }}" for each in gains),
+        "F_column": integers(F.colind()), "F_row": integers(F.row()),
+        "Q_row": integers(Q_row), "Q_column": integers(Q_column),
+        "programs": "\n\n".join(function(program, precision) for program in everything.values()),
+        "tiny": number(TINY[precision]), "huge": number(1e30), "low_256": number(1 / 256), "half": number(0.5),
+        "root_half": number(math.sqrt(0.5)), "root_two": number(math.sqrt(2)), "log_two": number(math.log(2)),
+        "log_terms": LOG_TERMS[precision], "rounding": number(ROUNDING[precision]),
+        "barrier": number(SETTINGS.barrier), "weight": number(SETTINGS.end_weight), "spread": number(SETTINGS.spread),
+        "ball_share": number(1 + SETTINGS.margin[0]), "ball_more": number(SETTINGS.margin[1]),
+        "ball_weight": number(asked.numbers[SHARED]), "ball_sunk": number(SUNK * asked.numbers[SHARED]),
+        "state_damping": number(SETTINGS.state_damping), "damping": number(SETTINGS.damping),
+        "worse": number(SETTINGS.worse), "better": number(SETTINGS.better),
+        "least_damping": number(SETTINGS.least_damping), "most_damping": number(SETTINGS.most_damping),
+        "room": number(SETTINGS.room), "least_room": number(LEAST_ROOM), "turn": number(SETTINGS.turn),
+        "price": number(1.2), "tries": 1 + len(SETTINGS.shrinks), "shrinks": numbers([1.0, *SETTINGS.shrinks]),
+        "inside_low": number(low + inside), "inside_high": number(high - inside), "most_failed": MOST_FAILED,
+        "low": number(vehicle.rotor_limits[0]), "high": number(vehicle.rotor_limits[1]), "short": number(SHORT),
+        "far_rod": number(FAR_ROD**2), "far_pivot": number((FAR_PIVOT * units.length) ** 2),
+        "sums_10": ", ".join(f"s{i} = 0" for i in range(10)), "sums_8": ", ".join(f"s{i} = 0" for i in range(8)),
+        "add_10": " ".join(f"s{i} += by * row[{i}];" for i in range(10)),
+        "add_8": " ".join(f"s{i} += by * row[{i}];" for i in range(8)),
+        "put_10": " ".join(f"n->PF[i + {i}][j] = s{i};" for i in range(10)),
+        "put_8": " ".join(f"sum[{i}] = s{i};" for i in range(8)),
+        "call_values": calling("values", [*here, "&shared"], ["&own", "slack[k]"]),
+        "call_limits": calling("values", old, ["&own", "slack[k]"]),
+        "call_begin": calling("values", old, ["&own", "slack[k]"]),
+        "call_errors": calling("errors", ["x[count]"], ["missed"]),
+        "call_ending": calling("ending", ["state"], ["n->to_go"]),
+        "call_terms": calling("terms", [*old, "slack[k]", "dual[k]"], ["n->cost"]),
+        "call_terms_before": calling(
+            "terms", [*best, "n->slack[first + k - 1]", "n->dual[first + k - 1]"], ["n->cost"]
+        ),
+        "call_linearised": calling(
+            "linearised", ["x[k]", "x[k + 1]", "u[k]", "timing"], ["n->gap[k]", "n->slopes[k]"]
+        ),
+        "call_steps": calling(
+            "steps", [*old, "slack[k]", "dual[k]", "delta", "upsilon", "&epsilon"], ["n->dual_step[k]", "&share"]
+        ),
+        "call_rollout": calling(
+            "rollout",
+            ["x[k]", "u[k]", "n->gap[k]", "n->gains[k]", "n->new_states[k]", "&length", "&epsilon", "timing"],
+            ["n->new_states[k + 1]", "n->new_commands[k]"],
+        ),
+        "call_advance": calling("advance", ["begun", "wanted", "&into"], ["nominal"], "w"),
+        "call_advance_here": calling("advance", ["begun", "wanted", "&into"], ["nominal"]),
+        "call_deviation": calling("deviation", ["nominal", "here"], ["off"], "w"),
+    }  # fmt: skip
+    return {name: str(text) for name, text in texts.items()}

@@ -127,7 +127,7 @@ def test_what_is_predicted_is_where_the_vehicle_is_when_its_command_acts():
         states.append(engine.packed)
         acting = busy(np.array([k * 0.002]))[0]
         memory, horizon, wrenches = find(memory, engine.packed[15:18], acting, acting, NONE)
-        predicted.append(carry(engine.packed, horizon, wrenches, np.zeros(6), NONE))
+        predicted.append(carry(engine.packed, horizon, wrenches, np.zeros(8), NONE))
         for j in range(4):
             engine.step(busy(np.array([max(0.0, k * 0.002 + (j + 0.5) * 0.0005 - delay)]))[0], 0.0005, np.zeros(6))
     late = round(delay / 0.002)

@@ -80,7 +80,7 @@ def test_nothing_but_its_memory_decides_what_it_answers():
 def test_a_control_period_predicts_in_one_step():
     """A prediction of more steps than one must be wanted."""
     made = lower_calls(board(Loop(VEHICLE, LAW, Plant())))
-    assert made.operations() < 3600  # some 3,200; a step more of the prediction takes 900
+    assert made.operations() < 3600  # some 3,000; a step more of the prediction takes 900
     find = next(program for program in made.programs if program.name == "find_delay")
     told = (
         f"{len(made.calls)} calls of {len(made.programs)} programs and {made.operations():,} operations per control "

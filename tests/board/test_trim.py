@@ -20,7 +20,7 @@ NONE = np.zeros(0)
 
 
 def found(plant, duration=4.0, vehicle=VEHICLE, y=(0.0, 0.0, 1.0), what="lever"):
-    """What the board finds of its trim in `duration` (s) in `plant`, from rest with the rod at `y`: levers (k, 3), m."""
+    """What the board finds of its trim in `duration` (s) in `plant`, from rest with the rod at `y`; levers are in m."""
     law, trims = fp.laws.inverted().bind(vehicle), []
     original = SteppedBoard.command
 
@@ -65,7 +65,7 @@ def test_a_false_delay_in_a_throw_is_taken_for_no_moment(y):
 
 @pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
 @pytest.mark.parametrize(
-    "wrong, strength",
+    ("wrong", "strength"),
     [({"strength": 0.85}, -0.15), ({"mismatch": {"inertia": 0.8}}, 0.25), ({"centre_of_mass": (0, 0.002, 0)}, 0.0)],
     ids=["weak rotors", "light inertia", "centre of mass off"],
 )

@@ -37,6 +37,9 @@ FORGETTING = 0.5
 # What is assumed of the delay before the flight weighs as much as the rate of a moment that, for a second, changes by
 # √0.1 of the largest per second.
 DOUBT = 0.1
+# Moments at a false time look weak: they count half for the strength of the trim while the delay found moves as fast as
+# this, s/s.
+SETTLED = 0.007
 # Longest delay times the cut-off of the two filters, 1.
 BAND = np.pi / 2
 # Time between the forces that are remembered, s, at least; rotors with a lag change little within it.
@@ -136,10 +139,12 @@ class DelayEstimator:
         smoother = smoother + share * (smooth - smoother)
         whole, slope, model, thrust = ca.vertsplit(smoother, [0, 3, 6, 9, 10])
         wrong = whole - slope * delay - thrust * turned - told["strength"] * model
-        trim = trimming.follow_strength(trim, whole - slope * delay, model, thrust, h, b.vehicle)
         information = np.exp(-h / FORGETTING) * known + h * ca.sumsqr(slope)
         doubt = DOUBT * angular_authority(b.vehicle) ** 2
-        found = delay + h * ca.dot(slope, wrong) / (information + doubt)
+        moves = ca.dot(slope, wrong) / (information + doubt)
+        found = delay + h * moves
+        sure = h * information / (information + doubt) / (1 + (moves / SETTLED) ** 2)
+        trim = trimming.follow_strength(trim, whole - slope * delay, model, thrust, sure, b.vehicle)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
         phase, past = self._age(phase, entries)
         kept = self.record.join({

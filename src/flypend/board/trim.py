@@ -55,8 +55,8 @@ FORGETTING, DOUBT = 1.5, 0.2
 STEADY = 0.05
 # A moment tells the strength if it is a fair share of the largest, and counts half at HARD: in hover, noise of the
 # gyroscope comes back as moments. A flip at full moment for DOUBTED (s) weighs as much as what is assumed before the
-# flight, and such moments are forgotten over TESTED (s).
-HARD, DOUBTED, TESTED = 0.02, 0.001, 2.0
+# flight (with half of it, a delay is overshot while it is found), and such moments are forgotten over TESTED (s).
+HARD, DOUBTED, TESTED = 0.02, 0.0001, 2.0
 # The largest strength that is believed, either way, as of the thrust.
 MOST_STRENGTH = 0.5
 # Largest trim, as a share of the largest moment per weight: with more, there is nothing left to steer with.
@@ -81,22 +81,23 @@ def follow_lever(
 
 
 def follow_strength(
-    memory: Numbers, lacking: Vector, modelled: Vector, thrust: Scalar, period: float, vehicle: Any
+    memory: Numbers, lacking: Vector, modelled: Vector, thrust: Scalar, weight: Scalar, vehicle: Any
 ) -> Numbers:
-    """Return the memory after a `period` (s) with an angular acceleration `lacking` (3,) beside a `modelled` one (3,).
+    """Return the memory after a period with an angular acceleration `lacking` (3,) beside a `modelled` one (3,).
 
-    Both in rad/s², before any trim, behind the same filters as the `thrust`, N.
+    Both in rad/s², before any trim, behind the same filters as the `thrust`, N. The period counts with `weight`, s.
     """
     trim, largest = RECORD.split(memory), angular_authority(vehicle) ** 2
     square = ca.sumsqr(modelled)
-    share = period * square / (square + HARD**2 * largest)
+    share = weight * square / (square + HARD**2 * largest)
     now = {"ff": thrust**2, "fp": thrust * modelled, "fq": thrust * lacking, "pp": square}
     now["pq"] = ca.dot(modelled, lacking)
     sums = {name: (1 - share / TESTED) * past + share * now[name] for name, past in SUMS.split(trim["sums"]).items()}
     goes = sums["fp"] / (sums["ff"] + 1e-9 * vehicle.weight**2)  # with the thrust
     told = sums["pp"] - ca.dot(goes, sums["fp"])
     strength = (sums["pq"] - ca.dot(goes, sums["fq"])) / (told + DOUBTED * largest)
-    return RECORD.join(trim | {"strength": ca.fmin(ca.fmax(strength, -MOST_STRENGTH), MOST_STRENGTH), "sums": SUMS.join(sums)})
+    strength = ca.fmin(ca.fmax(strength, -MOST_STRENGTH), MOST_STRENGTH)
+    return RECORD.join(trim | {"strength": strength, "sums": SUMS.join(sums)})
 
 
 def trim(believed: Believed, *, limits: bool) -> ca.Function:

@@ -3,7 +3,6 @@
 import casadi as ca
 import numpy as np
 import pytest
-import scipy.stats
 
 import flypend as fp
 from flypend.board import error_state, felt

@@ -93,7 +93,7 @@ class DelayEstimator:
             Field.of(trimming.RECORD),
             Field("information", 0, "what the past tells of the delay, rad^2/s^5"),
             Field("omega", 3, "angular velocity at the last measurement, body, rad/s"),
-            Field("earlier", 3, "moment that acted then, body, N m"),
+            Field("earlier", 3, "what the moment that acted then makes of it, rad/s^2"),
             Field("smooth", 10, "error, slope, model, rad/s^2, rad/s^3 and rad/s^2, and thrust, N, filtered"),
             Field("smoother", 10, "the same, filtered again"),
             Field("past", self.depth * self._believed.rotors, "forces of the rotors, newest first, N"),
@@ -124,32 +124,32 @@ class DelayEstimator:
         entries = self._entries(past, rotors)
         at, over = self.weights(delay, phase)
         acting, impulse, now = (self._wrench(forces) for forces in (entries @ at, entries @ over, rotors))
-        # Both in rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
-        expected = angular_acceleration((acting[1:] + earlier) / 2, (before + omega) / 2, b.vehicle)
-        wrong = (omega - before) / h - expected
-        slope = ca.mtimes(b.vehicle.I_inv, earlier - acting[1:]) / h
-        apart = [(wrench - acting)[1:] for wrench in (now, self._wrench(entries[:, -1]))]
-        spread = sum(ca.sumsqr(ca.mtimes(b.vehicle.I_inv, moment)) for moment in apart)
+        # In rad/s²: what is measured less what is expected, and, per second, what a longer delay adds to that.
+        turning, *others = (
+            ca.mtimes(b.vehicle.I_inv, wrench[1:]) for wrench in (acting, now, self._wrench(entries[:, -1]))
+        )
+        model, slope = (earlier + turning) / 2, (earlier - turning) / h
+        wrong = (omega - before) / h - model - angular_acceleration(ca.SX.zeros(3), (before + omega) / 2, b.vehicle)
+        spread = sum(ca.sumsqr(other - turning) for other in others)
         trim = trimming.follow_lever(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], spread, begun, h, b.vehicle)
-        share, model = -np.expm1(-BAND / self._longest * h), ca.mtimes(b.vehicle.I_inv, acting[1:] + earlier) / 2
-        told = trimming.RECORD.split(trim)
-        turned = ca.mtimes(b.vehicle.I_inv, told["lever"])
-        whole = wrong + slope * delay + acting[0] * turned + told["strength"] * model
+        share, told = -np.expm1(-BAND / self._longest * h), trimming.RECORD.split(trim)
+        tilting = ca.mtimes(b.vehicle.I_inv, told["lever"])
+        whole = wrong + slope * delay + acting[0] * tilting + told["strength"] * model
         smooth = smooth + share * (begun * ca.vertcat(whole, slope, model, acting[0]) - smooth)
         smoother = smoother + share * (smooth - smoother)
         whole, slope, model, thrust = ca.vertsplit(smoother, [0, 3, 6, 9, 10])
-        wrong = whole - slope * delay - thrust * turned - told["strength"] * model
+        lacking = whole - slope * delay
         information = np.exp(-h / FORGETTING) * known + h * ca.sumsqr(slope)
-        doubt = DOUBT * angular_authority(b.vehicle) ** 2
-        moves = ca.dot(slope, wrong) / (information + doubt)
+        gain = 1 / (information + DOUBT * angular_authority(b.vehicle) ** 2)
+        moves = gain * ca.dot(slope, lacking - thrust * tilting - told["strength"] * model)
         found = delay + h * moves
-        sure = h * information / (information + doubt) / (1 + (moves / SETTLED) ** 2)
-        trim = trimming.follow_strength(trim, whole - slope * delay, model, thrust, sure, b.vehicle)
+        sure = h * gain * information / (1 + (moves / SETTLED) ** 2)
+        trim = trimming.follow_strength(trim, lacking, model, thrust, sure, b.vehicle)
         found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
         phase, past = self._age(phase, entries)
         kept = self.record.join({
             "begun": 1, "phase": phase, "found": found, "trim": trim, "information": information, "omega": omega,
-            "earlier": acting[1:], "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
+            "earlier": turning, "smooth": smooth, "smoother": smoother, "past": ca.vec(past),
         })  # fmt: skip
         horizon = delay + self._lag_left
         ramp = self._extend(Ramp(impulse / delay, now - acting), delay, rotors, command)

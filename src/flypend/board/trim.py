@@ -93,7 +93,7 @@ def follow_strength(
     now = {"ff": thrust**2, "fp": thrust * modelled, "fq": thrust * lacking, "pp": square}
     now["pq"] = ca.dot(modelled, lacking)
     sums = {name: (1 - share / TESTED) * past + share * now[name] for name, past in SUMS.split(trim["sums"]).items()}
-    goes = sums["fp"] / (sums["ff"] + 1e-9 * vehicle.weight**2)  # with the thrust
+    goes = 1 / (sums["ff"] + 1e-9 * vehicle.weight**2) * sums["fp"]  # with the thrust
     told = sums["pp"] - ca.dot(goes, sums["fp"])
     strength = (sums["pq"] - ca.dot(goes, sums["fq"])) / (told + DOUBTED * largest)
     strength = ca.fmin(ca.fmax(strength, -MOST_STRENGTH), MOST_STRENGTH)

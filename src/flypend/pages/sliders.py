@@ -118,7 +118,7 @@ def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
     seen = slider("plant.noise", "plant", "noise", "× motion capture", level, Reach(0.0, 10.0), put=_NOISE)
     return [
         slider("vehicle.rotor_limits", "plant", "rotor limit", "N", largest, strongest, put=[least, {"#": 1}]),
-        slider("plant.lag", "plant", "rotor lag", "s", lag, Reach(0.0, 0.1)),
+        slider("plant.lag", "plant", "rotor lag", "s", lag, Reach(0.0, 0.2)),
         slider("plant.delay", "plant", "delay", "s", plant.delay, Reach(0.0, 0.1)),
         *([seen] if plant.sensors is None else []),  # sensors have noise of their own
         slider(

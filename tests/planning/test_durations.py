@@ -60,6 +60,8 @@ def test_a_plan_takes_all_of_the_time_unless_less_is_better():
 def test_horizons_grow_to_the_one_asked_for_and_a_path_has_no_other():
     free = request(HEHN, HANGING, "excursion", (0, 0, 0))
     assert ladder(None, free) == [*HORIZONS]
+    walled = request(HEHN, HANGING, "excursion", (0, 0, 0), None, fp.Constraints(floor=-1.0))
+    assert ladder(None, walled) == [SHORTER[-1], *HORIZONS]
     assert ladder(13.0, free) == [*SHORTER, 12.5, 13.0]
     assert ladder(12.5 * (1 + EQUAL / 2), free) == [*SHORTER, 12.5 * (1 + EQUAL / 2)]
     kept = fp.Constraints(path=fp.laws.references.hover())

@@ -38,8 +38,9 @@ from flypend.planning.solver import Settings
 from flypend.planning.verdict import plans_of
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
-# Tried before a time that is asked for, which may be longer than is good. Before the first of `HORIZONS` they are not
-# worth their time: eight guesses with 8 lead to a plan that is better by 2 % than with 12.5 from 1 of 384 starts.
+# Tried before a time that is asked for, which may be longer than is good, and the last of them before `HORIZONS` where
+# something is in the way: a low window costs 20 times as much without. Else it is not worth its time: eight guesses
+# with 8 lead to a plan that is better by 2 % than with 12.5 from 1 of 384 starts.
 SHORTER = (6.0, 8.0)
 EQUAL = 1e-3  # share by which a shorter flight must be better to be kept
 STOPPED = "stopped at the time limit"
@@ -147,9 +148,9 @@ def ladder(duration: float | None, asked: Request) -> list[float]:
 
     With a path there is no other, since it says where to be at each time; nor where the end is no place to wait.
     """
-    if duration is None:
-        return list(HORIZONS)
     waits = asked.waits and not asked.structure.path
+    if duration is None:
+        return [*(SHORTER[-1:] if waits and asked.structure.soft else ()), *HORIZONS]
     shorter = [] if not waits else [each for each in (*SHORTER, *HORIZONS) if each < (1 - EQUAL) * duration]
     return [*shorter, duration]
 

@@ -479,7 +479,8 @@ def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp
     if "planned" in options:
         texts |= {f"flypend_plan.{end}": (tmp_path / f"app/flypend_plan.{end}").read_text() for end in "hc"}
     told = fits.compiled(tuple(texts.items()), "a Crazyflie")
-    assert 0 <= told["bytes of stack"] - used < 40
+    # Frames are multiples of 8. The deepest call with a plan is not the one that the estimate adds the app's frames to.
+    assert 0 <= told["bytes of stack"] - used <= 40
     flash, memory = size(tmp_path / "app")
     assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
     assert told["bytes of RAM"] == pytest.approx(memory, rel=0.05)

@@ -54,7 +54,8 @@ def test_a_plan_that_touches_on_the_way_is_not_the_last_word():
 def test_more_guesses_find_no_less(planned):
     more = fp.plan_ensemble(HEHN, STARTS, guesses=3)
     # Two searches that lead to one plan end where the next step would gain 1e-4 of its cost, half of that in excursion.
-    assert np.all(more.excursion <= planned.excursion * (1 + 1e-4))
+    # Along a flat valley such steps add up: ten of them are left here at most, and 3e-4 of one excursion.
+    assert np.all(more.excursion <= planned.excursion * (1 + 5e-4))
     assert np.any(more.excursion < 0.9 * planned.excursion)  # or one guess would do
     for one, several in zip(planned, more, strict=True):
         assert (one.guesses, one.agreeing) == (1, 1)

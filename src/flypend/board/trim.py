@@ -2,7 +2,7 @@
 
 Where the centre of mass is off, or one rotor is weaker than another, a thrust f exerts a moment f ρ beside the modelled
 one τ; where all are weak, or the vehicle is harder to turn, (1 + σ) τ acts. The flight computer asks its rotors for
-(τ − f ρ)/(1 + σ), with ρ the lever, m, and σ the strength of the trim. What is sent then acts as the model says, so
+τ/(1 + σ) − f ρ, with ρ the lever, m, and σ the strength of the trim. What is sent then acts as the model says, so
 nothing else on board knows of it. Over a control period h the angular velocity tells the mean moment,
 
     J Δω/h + ω × Jω = (1 + δσ) τ + f δρ,
@@ -55,7 +55,7 @@ FORGETTING, DOUBT = 1.5, 0.2
 STEADY = 0.05
 # A moment tells the strength if it is a fair share of the largest, and counts half at HARD: in hover, noise of the
 # gyroscope comes back as moments. A flip at full moment for DOUBTED (s) weighs as much as what is assumed before the
-# flight (with half of it, a delay is overshot while it is found), and such moments are forgotten over TESTED (s).
+# flight: with twice that one throw tells only three fifths of a strength. They are forgotten over TESTED (s).
 HARD, DOUBTED, TESTED = 0.02, 0.0001, 2.0
 # The largest strength that is believed, either way, as of the thrust.
 MOST_STRENGTH = 0.5
@@ -93,7 +93,7 @@ def follow_strength(
     now = {"ff": thrust**2, "fp": thrust * modelled, "fq": thrust * lacking, "pp": square}
     now["pq"] = ca.dot(modelled, lacking)
     sums = {name: (1 - share / TESTED) * past + share * now[name] for name, past in SUMS.split(trim["sums"]).items()}
-    goes = 1 / (sums["ff"] + 1e-9 * vehicle.weight**2) * sums["fp"]  # with the thrust
+    goes = 1 / (sums["ff"] + 1e-9 * vehicle.weight**2) * sums["fp"]  # with the thrust; there is none yet at first
     told = sums["pp"] - ca.dot(goes, sums["fp"])
     strength = (sums["pq"] - ca.dot(goes, sums["fq"])) / (told + DOUBTED * largest)
     strength = ca.fmin(ca.fmax(strength, -MOST_STRENGTH), MOST_STRENGTH)

@@ -24,7 +24,7 @@ from flypend.export.sensors import describe
 from flypend.export.source import initializer
 from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
-from flypend.files.staging import staging
+from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
 from flypend.model import State, Vehicle
 from flypend.planning.planner import plan
@@ -161,9 +161,7 @@ def export_app(
     values |= own
     texts |= {f"flypend_frames.{end}": fill(f"adapters/flypend_frames.{end}", values) for end in "hc"}
     texts |= {file: fill(f"{target}/{file}", values) for file in FILES[target]}
-    with staging(out) as folder:
-        for file, text in texts.items():
-            (folder / file).write_text(text, encoding="utf-8", newline="\n")
+    write_texts(out, texts)
     return flown
 
 

@@ -23,7 +23,7 @@ from flypend.compile.scratch import scratch
 from flypend.export.plan import SHORT, advance
 from flypend.export.source import ascii_of
 from flypend.export.write import fill
-from flypend.files.staging import staging
+from flypend.files.staging import write_texts
 from flypend.planning.coarse import coarsened
 from flypend.planning.dynamics import LEAST_ROOM, Stage, Units
 from flypend.planning.feedback import deviation, regulator
@@ -75,9 +75,7 @@ def export_nmpc(plan: Plan, folder: str | Path, *, precision: Precision = "float
     """
     errors.one_of("precision", precision, PRECISIONS)
     values = values_of(*coarsened(plan, COARSER), precision)
-    with staging(folder) as into:
-        for name in (f"{NAME}.h", f"{NAME}.c"):
-            (into / name).write_text(fill(name, values), encoding="ascii")
+    write_texts(folder, {name: fill(name, values) for name in (f"{NAME}.h", f"{NAME}.c")})
 
 
 def sizes(stages: int) -> tuple[int, int]:

@@ -14,7 +14,7 @@ from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
 from flypend.export.source import ascii_of
-from flypend.files.staging import staging
+from flypend.files.staging import write_texts
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Units
@@ -136,10 +136,7 @@ def export_plan(plan: Plan, folder: str | Path, *, precision: Precision = "float
     InputError
         If the plan failed, or the precision cannot hold its numbers.
     """
-    texts = files(plan, precision)
-    with staging(folder) as into:
-        for name, text in texts.items():
-            (into / name).write_text(text, encoding="ascii")
+    write_texts(folder, files(plan, precision))
 
 
 def files(plan: Plan, precision: Precision) -> dict[str, str]:

@@ -21,7 +21,7 @@ from flypend.export.interface import Interface, interface
 from flypend.export.sensors import FILES, sensor_values
 from flypend.export.source import ascii_of, functions, initializer, offsets, struct, unread
 from flypend.export.tested import fly_tests
-from flypend.files.staging import staging
+from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.model.state import MANIFOLD_TOLERANCE
@@ -96,11 +96,7 @@ def export_c(
         texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)
         if found.poor:
             warnings.warn(f"the exported law flies {vehicle.name} poorly: {found.poor}", stacklevel=2)
-    with staging(out) as folder:
-        for name, text in texts.items():
-            path = folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8", newline="\n")
+    write_texts(out, texts)
     return Path(out)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -16,6 +16,15 @@ from flypend.errors import InputError
 def check_writable(out: str | Path) -> None:
     """Raise InputError unless `out` is, or can be created as, a writable folder. Leaves the file system unchanged."""
     _open(Path(out)).rmdir()
+
+
+def write_texts(out: str | Path, texts: Mapping[str, str]) -> None:
+    """Write `texts` by file name into the folder `out`, all or none. Raises InputError as `staging`."""
+    with staging(out) as folder:
+        for name, text in texts.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8", newline="\n")
 
 
 @contextmanager

@@ -1,17 +1,36 @@
-"""Observer of constant external forces on vehicle and bob, from momenta and the modelled thrust."""
+"""Observer of constant external forces on vehicle and bob, and of what scales the thrust, from momenta.
+
+Equal errors of the masses, weak rotors and a sagging battery scale the thrust: they act along it, and turn with it. As
+a force that stays where it is, what they do would be known only as late as the observer is slow.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import casadi as ca
+import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, cross
+from flypend.geometry import E3, Numbers, Scalar, Vector, cross
 from flypend.laws import Computer
 from flypend.model import State, linear_momentum
 from flypend.model.momenta import pull_on_rod
 from flypend.model.state import SIZE
 
+# Normal equations of the scale: how much of the unknown goes with the thrust, both about their means, N.
+TOLD = Record(
+    "told",
+    "What the flight tells of the scale of the thrust.",
+    (
+        Field("thrust", 3, "mean of the thrust, world, e3 up, N"),
+        Field("unknown", 3, "mean of the unknown forces, N"),
+        Field("square", 0, "of the thrust about its mean, N^2 s"),
+        Field("product", 0, "of both about their means, N^2 s"),
+    ),
+)
 RECORD = Record(
     "observer",
     "Observer of external forces.",
@@ -20,8 +39,19 @@ RECORD = Record(
         Field("momenta", 6, "estimates of (M + m) x_dot + m l y_dot, N s, and y x y_dot, 1/s"),
         Field("known", 6, "the part of their rates that is known, N and 1/s^2"),
         Field("unknown", 6, "estimate of the rest, due to external forces, N and 1/s^2"),
+        Field("thrust", 6, "what the thrust does to both, as late as that estimate, N and 1/s^2"),
+        Field("told", TOLD.length, "of the scale of the thrust"),
     ),
 )
+# Time over which means are taken, s: a constant force is part of the mean, a swing-up turns the thrust several times.
+MEAN = 1.0
+# Thrust that departs from its mean by a share of the weight tells the scale, and counts half at VARIES; in hover it
+# tells nothing, and the scale stays. What was told is forgotten over FORGETTING (s of varying thrust), as is a battery.
+VARIES, FORGETTING = 0.1, 2.0
+# A tenth of the weight for half a second weighs as much as what is assumed before the flight, which is no scale.
+DOUBT = 0.005
+# Largest scale that is believed, either way: masses 20 % lighter under rotors 15 % stronger make 0.44.
+MOST = 0.6
 
 
 def observer(believed: Believed, computer: Computer, period: float, thrusts: int) -> ca.Function:
@@ -38,6 +68,10 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     a lower-order rule, every change of thrust would look like a force. The first measurement, and the first after a
     gap, only initialises the momenta and leaves the estimates unchanged.
 
+    A scale s of the thrust adds s f z to the unknown term of P, and −s (f/Ml) y × z to that of H. Filtered like N̂,
+    these are s T, and N̂ = s T + F: s follows by least squares from how N̂ and T vary together about their means, and
+    N̂ − s T is what forces explain.
+
     Parameters
     ----------
     believed : Believed
@@ -52,25 +86,47 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     Returns
     -------
     Function
-        Inputs: state (24,), thrusts (k,), N, memory (19,) and params. Outputs: memory, and the forces (6,) on
-        vehicle and bob, N.
+        Inputs: state (24,), thrusts (k,), N, memory (33,) and params. Outputs: memory, the forces (6,) on vehicle and
+        bob, N, and the scale, true over modelled thrust, less 1.
     """
     vehicle, L = believed.vehicle, computer.observer
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     packed, given = ca.SX.sym("s", SIZE), ca.SX.sym("f", thrusts)
     memory = ca.SX.sym("memory", RECORD.length)
-    begun, momenta, before, estimate = RECORD.split(memory).values()
+    begun, momenta, before, estimate, thrust, told = RECORD.split(memory).values()
     s = State.symbolic(packed)
     measured = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
     f = ca.sum1(given)
-    known = ca.vertcat(f * s.z - vehicle.weight * E3, cross(s.y, pull_on_rod(f, s.z, vehicle)))
+    by_thrust = ca.vertcat(f * s.z, cross(s.y, pull_on_rod(f, s.z, vehicle)))
+    known = by_thrust - vehicle.weight * ca.vertcat(E3, np.zeros(3))
     following = momenta + period * ((before + known) / 2 + estimate)
     following = ca.if_else(begun, following, measured - estimate / L)  # keeps the estimate unchanged
     unknown = L * (measured - following)
-    total, difference = unknown[:3], l * cross(unknown[3:], s.y)  # F_v + F_b, and D without its component along the rod
+    thrust = thrust + L * period * (by_thrust - thrust)
+    told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], begun, period, vehicle.weight)
+    rest = unknown - scale * thrust
+    total, difference = rest[:3], l * cross(rest[3:], s.y)  # F_v + F_b, and D without its component along the rod
     on_bob = m * M / (M + m) * (difference + total / M)
     limit = computer.force_limit * vehicle.weight
     forces = [force / ca.fmax(1, ca.norm_2(force) / limit) for force in (total - on_bob, on_bob)]
-    kept = RECORD.join({"begun": 1, "momenta": following, "known": known, "unknown": unknown})
-    outputs = ca.cse([ca.densify(kept), ca.densify(ca.vertcat(*forces))])
+    kept = {"begun": 1, "momenta": following, "known": known, "unknown": unknown, "thrust": thrust, "told": told}
+    outputs = ca.cse([ca.densify(RECORD.join(kept)), ca.densify(ca.vertcat(*forces)), scale])
     return ca.Function("observe", [packed, given, memory, believed.symbols], outputs)
+
+
+def _learn(
+    told: Mapping[str, Any], thrust: Vector, unknown: Vector, begun: Scalar, period: float, weight: Scalar
+) -> tuple[Numbers, Scalar]:
+    """Return `TOLD` after a period (s) with these `thrust` and `unknown` (3,), N, and the scale; see `observer`."""
+    off, beside = thrust - told["thrust"], unknown - told["unknown"]
+    square, follow = ca.sumsqr(off), ca.if_else(begun, period / MEAN, 1)
+    share = begun * period * square / (square + (VARIES * weight) ** 2)
+    kept = 1 - share / FORGETTING
+    after = {
+        "thrust": told["thrust"] + follow * off,
+        "unknown": told["unknown"] + follow * beside,
+        "square": kept * told["square"] + share * square,
+        "product": kept * told["product"] + share * ca.dot(off, beside),
+    }
+    scale = after["product"] / (after["square"] + DOUBT * weight**2)
+    return TOLD.join(after), ca.fmin(ca.fmax(scale, -MOST), MOST)

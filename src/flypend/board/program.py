@@ -267,7 +267,7 @@ def predicting(made: Parts) -> ca.Function:
         thrusts = wrenches[0, 2]
     if made.observes:
         observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
-        kept["observer"], found["forces"] = observe(state, thrusts, before["observer"], params)
+        kept["observer"], found["forces"], found["scale"] = observe(state, thrusts, before["observer"], params)
     if finding is not None:
         state = finding.carry()(state, horizon, wrenches, OUTSIDE.join(found), params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come

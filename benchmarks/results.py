@@ -25,6 +25,7 @@ from functools import cache, partial
 from hashlib import sha256
 from io import StringIO
 from itertools import chain
+from operator import eq
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -85,8 +86,8 @@ class Result:
             return "fresh" if all(self.code.values()) else "of code that was not recorded"
         return f"older than {', '.join(_told(source, files) for source, files in changed.items())}"
 
-    def again(self) -> Result:
-        """Run the command; return what it measures now. Raises RuntimeError if it fails."""
+    def again(self) -> tuple[Result, str]:
+        """Run the command; return what it measures now, and what it printed. Raises RuntimeError if it fails."""
         with TemporaryDirectory() as folder:
             path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
             # The sources beside these benchmarks, whichever package is installed.
@@ -101,7 +102,8 @@ class Result:
                 raise RuntimeError(f"{self.command} ends with {done.returncode}:\n{done.stderr[-2000:]}")
             values = measured(done.stdout, Path(folder))
         code = {source: digests(source) for source in self.code}
-        return replace(self, code=code, date=datetime.now(UTC).date(), machine=machine_told(), values=values)
+        new = replace(self, code=code, date=datetime.now(UTC).date(), machine=machine_told(), values=values)
+        return new, done.stdout
 
 
 def _told(source: str, files: list[str]) -> str:
@@ -338,14 +340,42 @@ def put(page: str, wrong: list[Said], old: Values, new: Values) -> tuple[str, li
     return page, unclear
 
 
+def put_tables(page: str, old: Values, printed: str) -> str:
+    """Return a `page` with the rows of its tables that are `printed`: by header, first cell and `old` numbers."""
+    lines, fresh = page.splitlines(keepends=True), {names: line for _, names, line in _rows(printed)}
+    places: dict[tuple[str, str], list[int]] = {}
+    for i, names, _ in _rows(page):
+        places.setdefault(names, []).append(i)
+    before = {re.sub(r"\s", "", name): [value for _, value in leaves(row)] for name, row in old.items()}
+    for names in places.keys() & fresh.keys():
+        numbers = before.get(names[1], [])
+        alike = [sum(map(eq, numbers, numbers_in(lines[i].split("|", 2)[2]))) for i in places[names]]
+        if alike.count(max(alike)) == 1:
+            i = places[names][alike.index(max(alike))]
+            own = lines[i].split("|")[1]  # as the page spells it
+            lines[i] = "|".join(["", own, *fresh[names].strip().split("|")[2:]]) + "\n"
+    return "".join(lines)
+
+
+def _rows(text: str) -> Iterator[tuple[int, tuple[str, str], str]]:
+    """Yield, for each row of a Markdown table, the number of its line, header and first cell without marks, and it."""
+    head = ""
+    for i, line in enumerate(text.splitlines()):
+        bare = re.sub(r"[`*\s]", "", line)
+        head = (head or bare) if bare.startswith("|") else ""
+        if head not in ("", bare) and not bare.startswith("|--"):
+            yield i, (head, bare.split("|")[1]), line
+
+
 def measure(old: Result, ledger: list[Result]) -> None:
     """Measure a result of the `ledger` again, write its file, and put the new numbers into the pages that name it."""
-    new = old.again()
+    new, printed = old.again()
     (FOLDER / f"{new.name}.toml").write_text(new.text(), encoding="utf-8")
     print(new.text())
     for path in pages():
         page = path.read_text(encoding="utf-8")
         if typed(new.command) in commands(page):
+            page = put_tables(page, old.values, printed)
             before = {number.begin for number in unknown(page, path, ledger)}
             now = unknown(page, path, [new if result.name == new.name else result for result in ledger])
             page, unclear = put(page, [one for one in now if one.begin not in before], old.values, new.values)
@@ -357,6 +387,9 @@ def measure(old: Result, ledger: list[Result]) -> None:
 def main(names: list[str]) -> None:
     """List the results with their age, or measure those named again."""
     ledger = results()
+    if {"-h", "--help"} & set(names):
+        print(__doc__)
+        return
     if missing := set(names) - {result.name for result in ledger}:
         sys.exit(f"no result {', '.join(sorted(missing))} in {FOLDER.relative_to(ROOT)}")
     for result in ledger:

@@ -73,6 +73,7 @@ def main(names: list[str]) -> None:
         prepared.mkdir()
         for line in FOR_OTHERS:
             spent(line, prepared, Path(folder) / "cache")
+        print("| command | first | again |\n|---|---|---|")
         for i, line in enumerate(LINES):
             if names and shlex.split(line)[1] not in names:
                 continue

@@ -317,7 +317,7 @@ def compare(
 @click.option(
     "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
 )
-@click.option("--sensors", help="Fly what may be wrong with these sensors instead: mocap or onboard.")
+@click.option("--sensors", help="Fly a rung for each error of these sensors instead: mocap or onboard.")
 @bands_option
 def ladder(
     law: tuple[str, ...],

@@ -30,7 +30,7 @@ class Flights:
     advise: bool = option(
         "--advise",
         is_flag=True,
-        help="Name the best law, by default of inverted and learned; if none will do, what would.",
+        help="Name the best law, by default of inverted and learned; if none will do, what to change.",
     )
     bands: bool = option("--bands", is_flag=True, help=f"Also: {BANDS_HELP}")
 
@@ -41,7 +41,7 @@ class Flights:
 @out_option("check-out")
 @options_of(Flights, "own")
 @click.option(
-    "--margins/--no-margins", default=None, help="Search for margins; default for perfect sensors and a quick law."
+    "--margins/--no-margins", default=None, help="Search for margins; on by default for perfect sensors and fast laws."
 )
 @click.option("--trial", is_flag=True, help="Also fly a minute with 15 knocks, and sweep every number by ±25 %.")
 @click.option("--figures/--no-figures", default=True, help="Draw the figure.")

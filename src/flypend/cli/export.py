@@ -28,14 +28,14 @@ if TYPE_CHECKING:
     "--check/--no-check",
     "tested",
     default=True,
-    help="Fly the law first, for seconds, and state the result in the header.",
+    help="Fly the law first, which takes seconds, and state the result in the header.",
 )
 def export_c(
     law: str, vehicle: str, out: Path, precision: str, rate: float, sensors: str, light: bool, tested: bool
 ) -> None:
     """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export.
 
-    With nmpc, it is that of the inverted law, and beside it a plan from hanging at rest that is improved in flight.
+    With nmpc, export that of the inverted law, and beside it a plan from hanging at rest that is improved in flight.
     """
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
@@ -70,11 +70,11 @@ def export_c(
 @click.argument("vehicle")
 @out_option("app")
 @click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
-@click.option("--height", type=float, help="Height, m, below which it does not begin. Default: what a swing-up needs.")
+@click.option("--height", type=float, help="Height, m, below which the law stays off. Default: what a swing-up needs.")
 @click.option("--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length.")
 @click.option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
 @sensors_option
-@click.option("--plan", "planned", is_flag=True, help="Swing up from hanging by a plan; the law flies otherwise.")
+@click.option("--plan", "planned", is_flag=True, help="Swing the hanging rod up along a plan; the law flies the rest.")
 def export_app(
     target: str,
     vehicle: str,

@@ -80,7 +80,7 @@ class Rehearsal:
     help="Position of the tracked point relative to the pivot, body frame, m.",
 )
 @click.option("--command", default="newton", help="What u1, u2, … are: newton, or pwm, fractions from 0 to 1.")
-@click.option("--mass-error", default=0.005, help="Share within which the vehicle's mass is known.")
+@click.option("--mass-error", default=0.005, help="Relative error within which the vehicle's mass is known.")
 @options_of(Rehearsal, "rehearsal")
 def identify(
     log: Path,
@@ -95,7 +95,7 @@ def identify(
 
     --vehicle is the guess: its mass is taken as weighed, its rotors' positions, spins and limits as known. The
     columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry, rz, vbat.
-    For PX4's ULog, add --command pwm. MCAP is a bag of ROS 2.
+    For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag.
     """
     from flypend import model
     from flypend.errors import InputError

@@ -28,12 +28,12 @@ def learn(
 ) -> None:
     """Learn a law for VEHICLE: a small network that imitates the inverted law and then improves on it.
 
-    Writes the policy, which --law learned flies with its gain policy, and the training curve. After an interruption,
-    the same command resumes, with the same result.
+    Writes the training curve, and the policy, which the law learned flies if its gain policy names the file. After an
+    interruption, the same command resumes, with the same result.
 
-    With --bands, machines drawn from the bands of VEHICLE fly in the training, with commands that are late; with
-    --sensors, their states are seen with the errors of an estimator. The result is compared with the inverted law in
-    other such machines, on these sensors.
+    With --bands, training flies machines drawn from the bands of VEHICLE, with late commands; with --sensors, the
+    network sees states with the errors of an estimator. The result is compared with the inverted law on other such
+    machines, with these sensors.
     """
     from flypend import model
     from flypend.files.staging import check_writable

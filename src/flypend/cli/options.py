@@ -20,7 +20,7 @@ laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
 SENSORS_HELP = "perfect; or mocap, onboard, laboratory or a TOML file, with the estimator (not on the plant ideal)."
 sensors_option = click.option("--sensors", default="perfect", help=SENSORS_HELP)
-BANDS_HELP = "Fly vehicles drawn from the bands of the vehicle; the law believes what is written."
+BANDS_HELP = "Fly vehicles drawn from the vehicle's bands; the law assumes the values in its file."
 bands_option = click.option("--bands", is_flag=True, help=BANDS_HELP)
 FLOOR_HELP = "Height of a floor, upward from the origin: a machine that touches it has collided."
 floor_option = click.option("--floor", type=float, metavar="M", help=FLOOR_HELP)

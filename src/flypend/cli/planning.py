@@ -34,7 +34,7 @@ class Kept:
     end: str = option(
         "--end",
         default="inverted",
-        help="How it ends: in hover with the rod inverted or hanging; or where the start of a run file is.",
+        help="How it ends: in hover with the rod inverted or hanging, or at the start of a run file.",
     )
     floor: float | None = option("--floor", type=float, metavar="M", help="Minimum height of pivot and rod.")
     ceiling: float | None = option("--ceiling", type=float, metavar="M", help="Maximum height of pivot and rod.")
@@ -71,10 +71,10 @@ class Kept:
         "--clearance", type=float, metavar="M", help="Distance that rod and machine keep from mount and frames."
     )
     keep: str | None = option(
-        "--keep", metavar="EXPR", help='What holds all the way, such as "norm(x) < 1, y[2] > 0"; or file.py:function.'
+        "--keep", metavar="EXPR", help='What must always hold, such as "norm(x) < 1, y[2] > 0"; or file.py:function.'
     )
     cost: str | None = option(
-        "--cost", metavar="EXPR", help='Whose square adds to the objective, such as "x_dot[0]"; or file.py:function.'
+        "--cost", metavar="EXPR", help='Term whose square adds to the objective, such as "x_dot[0]"; or file.py:function.'
     )
 
     def state(self, target: ArrayLike) -> State | None:
@@ -142,8 +142,8 @@ class Outputs:
 @click.argument("what", required=False)
 @vehicle_option
 @out_option("plan.nc", "Output file (.nc): the plan.")
-@click.option("--objective", help="What to minimise: excursion (default), effort, time, or cost: that of --cost alone.")
-@click.option("--duration", type=float, help="Time until hover, s; by default long enough.")
+@click.option("--objective", help="What to minimise: excursion (default), effort, time, or cost (--cost alone).")
+@click.option("--duration", type=float, help="Time until hover, s; default as long as it takes.")
 @click.option("--target", type=float, nargs=3, metavar="X Y Z", help="Where the pivot hovers; default the origin.")
 @options_of(Kept, "keep")
 @options_of(Outputs, "also")
@@ -159,8 +159,8 @@ def plan(
 ) -> None:
     """Plan a flight to hover: from the start in WHAT, a run file, or else from hanging at rest.
 
-    The run file also gives the vehicle, and the law "plan" in it objective, target and constraints; options come before
-    them. Another law, and the duration, are ignored. Figures are .png, .pdf or .svg.
+    The run file also gives the vehicle and, if its law is "plan", objective, target and constraints, which options
+    override. Any other law, and the duration, are ignored. Figures are .png, .pdf or .svg.
     """
     from flypend.files.whole import FIGURES
     from flypend.flight.metrics import metrics

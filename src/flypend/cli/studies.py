@@ -105,7 +105,7 @@ def draw_map(
     workers: int | None,
     force: bool,
 ) -> None:
-    """Map success, settling time, excursion and causes of failure over the rod's initial direction, and in a plane.
+    """Map success, settling time, excursion and causes of failure over the rod's initial direction and over a plane.
 
     WHAT is the store of a sweep (.zarr), or the TOML file of a study to fly first. With a study or --law, the runs are
     saved to a store next to the map, and an interrupted command resumes.

@@ -35,7 +35,7 @@ def theorem(
     """Fly the laws of Theorems A and B and check every claim: Theorem 1 repaired, and the inverted pendulum.
 
     Writes V(t) with its terms, the regions of attraction with their exceptional sets, report.md and report.json.
-    Printed, corrected and other laws that lack a part of the proof fly beside them as negative controls.
+    Printed, corrected and other laws that lack something the proof needs fly as negative controls.
 
     With --basin, counts the random starts from which the inverted law brings --vehicle, with rotor limits, into the
     certified set, where Theorem B's law takes over, and writes basin.json. With --lag, the rotors lag too, and Theorem

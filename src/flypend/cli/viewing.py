@@ -21,8 +21,8 @@ from flypend.cli.terminal import bold, console, counter, draw
 def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, speed: float) -> None:
     """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare.
 
-    RUNS are one to four files saved by flypend (.nc); the camera follows the first. With --out flight.mcap, one of them
-    is written for Foxglove, PlotJuggler and ROS 2's tools, which needs the extra logs.
+    RUNS are one to four files saved by flypend (.nc); the camera follows the first. With --out flight.mcap, one run is
+    written for Foxglove, PlotJuggler and ROS 2's tools, which needs the extra logs.
     """
     from flypend import errors
     from flypend.flight.trajectory import load

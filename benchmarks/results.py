@@ -358,7 +358,7 @@ def put_tables(page: str, old: Values, printed: str) -> str:
 
 
 def _table_rows(text: str) -> Iterator[tuple[int, str, dict[str, str]]]:
-    """Yield of each row of a Markdown table the number of its line, its first cell without marks, and cells by column."""
+    """Yield, for each row of a Markdown table, the number of its line, its first cell bare, and its cells by column."""
     columns: list[str] = []
     for i, line in enumerate(text.splitlines()):
         cells = [cell.strip() for cell in line.strip().strip("|").split("|")] if line.startswith("|") else []

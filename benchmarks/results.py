@@ -25,7 +25,6 @@ from functools import cache, partial
 from hashlib import sha256
 from io import StringIO
 from itertools import chain
-from operator import eq
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -341,30 +340,31 @@ def put(page: str, wrong: list[Said], old: Values, new: Values) -> tuple[str, li
 
 
 def put_tables(page: str, old: Values, printed: str) -> str:
-    """Return a `page` with the rows of its tables that are `printed`: by header, first cell and `old` numbers."""
-    lines, fresh = page.splitlines(keepends=True), {names: line for _, names, line in _rows(printed)}
-    places: dict[tuple[str, str], list[int]] = {}
-    for i, names, _ in _rows(page):
-        places.setdefault(names, []).append(i)
+    """Return a `page` with the rows of its tables as `printed`: by columns and first cell, and by `old` numbers."""
+    lines, places, found = page.splitlines(keepends=True), [], list(_table_rows(page))
     before = {re.sub(r"\s", "", name): [value for _, value in leaves(row)] for name, row in old.items()}
-    for names in places.keys() & fresh.keys():
-        numbers = before.get(names[1], [])
-        alike = [sum(map(eq, numbers, numbers_in(lines[i].split("|", 2)[2]))) for i in places[names]]
-        if alike.count(max(alike)) == 1:
-            i = places[names][alike.index(max(alike))]
-            own = lines[i].split("|")[1]  # as the page spells it
-            lines[i] = "|".join(["", own, *fresh[names].strip().split("|")[2:]]) + "\n"
+    for _, first, new in _table_rows(printed):
+        numbers = before.get(first, [])
+        places = [(i, own) for i, name, own in found if name == first and own.keys() <= new.keys()]
+        alike = [sum(value in numbers for cell in own.values() for value in numbers_in(cell)) for _, own in places]
+        if places and alike.count(max(alike)) == 1:
+            i, own = places[alike.index(max(alike))]
+            cells = [
+                lines[i].split("|")[1].strip(),
+                *(new[column] for column in own),
+            ]  # the first as the page spells it
+            lines[i] = f"| {' | '.join(cells)} |\n"
     return "".join(lines)
 
 
-def _rows(text: str) -> Iterator[tuple[int, tuple[str, str], str]]:
-    """Yield, for each row of a Markdown table, the number of its line, header and first cell without marks, and it."""
-    head = ""
+def _table_rows(text: str) -> Iterator[tuple[int, str, dict[str, str]]]:
+    """Yield, for each row of a Markdown table, the number of its line, its first cell bare, and its cells by column."""
+    columns: list[str] = []
     for i, line in enumerate(text.splitlines()):
-        bare = re.sub(r"[`*\s]", "", line)
-        head = (head or bare) if bare.startswith("|") else ""
-        if head not in ("", bare) and not bare.startswith("|--"):
-            yield i, (head, bare.split("|")[1]), line
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")] if line.startswith("|") else []
+        if cells and columns and not set(cells[0]) <= set("-:"):
+            yield i, re.sub(r"[`*\s]", "", cells[0]), dict(zip(columns[1:], cells[1:], strict=False))
+        columns = columns or cells if cells else []
 
 
 def measure(old: Result, ledger: list[Result]) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import results
 from benchmarks.quantities import Said, said
-from benchmarks.results import CONSTANTS, ROOT, Result, measured, pages, put, rows, typed, unknown
+from benchmarks.results import CONSTANTS, ROOT, Result, measured, pages, put, put_tables, rows, typed, unknown
 
 LEDGER = results.results()
 NAMES = [path.relative_to(ROOT).as_posix() for path in pages()]
@@ -113,6 +113,16 @@ def test_new_values_are_put_where_a_page_says_the_old_ones():
     page, unclear = put(page, list(said(page)), old, new)
     assert page == "| a | 1.6 m |\n| b | 2.0 m |\n\nfar: 1.5 m, 3e-5 m, 5 s\n"
     assert [number.text for number in unclear] == ["1.5"]
+
+
+def test_rows_of_a_printed_table_are_put_where_a_page_has_the_old_ones():
+    old, printed = {"lqr": {"stands": [2, 5, 1, 3]}}, "| law | stands |\n|---|---|\n| lqr | 3 of 5 (2–4) |\n"
+    ours = "| law | stands |\n|---|---|\n| `lqr` | 2 of 5 (1–3) |\n| other | 2 of 5 (1–3) |\n\n"
+    others = "| law | falls |\n|---|---|\n| lqr | 2 of 5 |\n\n| law | stands |\n|---|---|\n| lqr | 0 of 5 (0–1) |\n"
+    new = ours.replace("2 of 5 (1–3)", "3 of 5 (2–4)", 1)
+    assert put_tables(ours + others, old, printed) == new + others
+    assert put_tables(others + ours, old, printed) == others + new
+    assert put_tables(ours + ours, old, printed) == ours + ours
 
 
 @pytest.fixture

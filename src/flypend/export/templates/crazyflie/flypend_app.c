@@ -47,6 +47,7 @@ _Static_assert($least_force >= 0.9999f * THRUST_MIN, "rotor_limits of the vehicl
 #define POSE_GAP 0.2f     /* s */
 #define PAUSE_STEPS 1000U /* of the stabilizer loop, 1 ms: hover before landing */
 #define BRAKE_STEPS 2500U /* without poses: until then it brakes, then it keeps level */
+#define RESET_STEPS 2000U /* in which the firmware's filter settles after a reset */
 #define GRACE_STEPS 3000U /* by which a landing may be late */
 #define SINK 0.3f         /* m/s */
 #define BLIND_SINK 0.8f   /* m/s without poses, when each second makes the estimate worse */
@@ -90,6 +91,9 @@ static setpoint_t landing;
 static stabilizerStep_t landing_step;  /* when it began, */
 static stabilizerStep_t landing_steps; /* how long it may take */
 static stabilizerStep_t turned_step;   /* when the law last flew */
+static stabilizerStep_t spoiled_step;  /* when the firmware's estimate was last no number */
+static bool spoiled;                   /* it was, and has not settled since */
+static volatile bool has_no_number;    /* now, so that the app's task resets the filter */
 static bool grounded;
 static volatile bool turning;          /* the vehicle may be upside down on purpose */
 static bool tumble_check_is_off;       /* written by the app's task */
@@ -138,6 +142,7 @@ static void begin_anew_if_not_finite(float *estimate, int numbers)
 void appMain(void)
 {
     const paramVarId_t tumble_check = paramGetVarId("supervisor", "tmblChckEn");
+    const paramVarId_t reset = paramGetVarId("kalman", "resetEstimation");
     static const char *const names[POSE_LOGS] = {"x", "y", "z", "qw", "qx", "qy", "qz", "tick"};
     bob_message message;
     for (int i = 0; i < POSE_LOGS; i++) {
@@ -161,6 +166,10 @@ void appMain(void)
             paramSetInt(tumble_check, off ? 0 : 1);
             tumble_check_is_off = off;
         }
+        /* It never becomes a number again by itself, and its covariance ends in an assertion ten seconds later. */
+        if (has_no_number) {
+            paramSetInt(reset, 1);
+        }
     }
 }
 
@@ -172,6 +181,8 @@ void controllerOutOfTreeInit(void)
     grounded = false;
     turning = false;
     bob.seen = false;
+    spoiled = false;
+    has_no_number = false;
     rod[ROD_NUMBERS - 1] = -1;
     pose[POSE_NUMBERS - 1] = -1;
 }
@@ -253,10 +264,17 @@ $tell_rod    $call_track_rod
     begin_anew_if_not_finite(rod, ROD_NUMBERS);
 }
 
-static bool is_sound(const state_t *state)
+/* Whether the firmware's estimate is finite; once a step. */
+static void check_estimate(const state_t *state, stabilizerStep_t step)
 {
-    return finite3(&state->position.x) && finite3(&state->velocity.x) && finite3(&state->attitudeQuaternion.x)
-        && isfinite(state->attitudeQuaternion.w);
+    has_no_number = !(finite3(&state->position.x) && finite3(&state->velocity.x) && finite3(&state->attitudeQuaternion.x)
+                      && isfinite(state->attitudeQuaternion.w));
+    if (has_no_number) {
+        spoiled_step = step;
+        spoiled = true;
+    } else if (step - spoiled_step > RESET_STEPS) {
+        spoiled = false;
+    }
 }
 
 /* Why the law must not fly; FLIES if nothing speaks against it. */
@@ -269,7 +287,7 @@ static uint8_t obstacle(const setpoint_t *setpoint, const state_t *state, const 
     }
     const float unseen = pose[POSE_NUMBERS - 1];
     if ((stateEstimatorGetType() != StateEstimatorTypeKalman) || !(unseen >= 0) || (unseen > POSE_GAP)
-        || !is_sound(state)) {
+        || spoiled) {
         return NO_STATE;
     }
     if (pmIsBatteryLow()) {
@@ -312,12 +330,13 @@ static bool is_blind(void)
 }
 
 /* Without poses the firmware's Kalman filter drifts away, the faster the more the rod pulls and the vehicle turns, and one
- * pose that is not finite spoils it for good. The law's own estimate goes on with what gyroscope and accelerometer feel. */
+ * pose that is not finite spoils it until it is reset. The law's own estimate goes on with what gyroscope and accelerometer
+ * feel. */
 static const state_t *known_best(const state_t *state)
 {
     static state_t own;
     const float *R = pose + POSE_R;
-    if (!(pose[POSE_NUMBERS - 1] >= 0) || (is_sound(state) && !is_blind())) {
+    if (!(pose[POSE_NUMBERS - 1] >= 0) || (!spoiled && !is_blind())) {
         return state;
     }
     own = *state;
@@ -402,6 +421,7 @@ void controllerOutOfTree(control_t *control, const setpoint_t *setpoint, const s
     const rod_end end = bob;
     const bool due = RATE_DO_EXECUTE($rate, step);
     follow_rotors();
+    check_estimate(state, step);
 $tell_imu    follow_pose(sensors);
     follow_rod(sensors, &end);
     const uint8_t found = obstacle(setpoint, state, &end);
@@ -425,7 +445,7 @@ $tell_imu    follow_pose(sensors);
         if ((found == FLIES) && due && !fly(setpoint, sensors)) {
             why = REFUSED;
         }
-        if (is_sound(state) && (state->position.z <= GROUND)) {
+        if (!spoiled && (state->position.z <= GROUND)) {
             grounded = true;
         }
         if (why != FLIES) {

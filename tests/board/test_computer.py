@@ -7,7 +7,7 @@ import pytest
 import flypend as fp
 from flypend import geometry as geo
 from flypend.board.believed import Believed
-from flypend.board.command import OUTSIDE, finish, usable_lead
+from flypend.board.command import finish, total_forces, usable_lead
 from flypend.board.observer import RECORD, observer
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
@@ -51,7 +51,7 @@ def log(monkeypatch):
         def command(self, t, packed):
             command = super().command(t, packed)
             state, rotors, outside = self.predicted
-            found = (state, rotors, outside[OUTSIDE.place("forces")])
+            found = (state, rotors, total_forces(Believed.numbers(VEHICLE))(state, rotors, outside).full().ravel())
             for column, value in zip((seen.predicted, seen.rotors, seen.forces), found, strict=True):
                 column.append(value)
             seen.commands.append(command)
@@ -204,15 +204,16 @@ def _observed(force, start, rotors, duration=5.0, period=2e-3, vehicle=VEHICLE):
     return times, np.array(estimates), np.array(rods)
 
 
+def _update(period):
+    return as_numpy(observer(Believed.numbers(VEHICLE), Computer(observer=BANDWIDTH), period, 4))
+
+
 def _observer(period):
     """What an observer estimates, measurement after measurement."""
-    update, memory = (
-        as_numpy(observer(Believed.numbers(VEHICLE), Computer(observer=BANDWIDTH), period, 4)),
-        np.zeros(RECORD.length),
-    )
+    update, memory = _update(period), np.zeros(RECORD.length)
 
     def observe(measured, rotors):
-        memory[:], forces = update(measured, rotors, memory, np.zeros(0))
+        memory[:], forces, _ = update(measured, rotors, memory, np.zeros(0))
         return forces
 
     return observe
@@ -232,6 +233,24 @@ def test_the_estimate_of_a_force_converges_exponentially_to_the_truth(y):
     np.testing.assert_allclose(estimate, share[:, None] * force, rtol=0, atol=1e-5)  # trapezoidal rule, T = 2 ms
     np.testing.assert_allclose(share, 1 - np.exp(-BANDWIDTH * t), rtol=0, atol=1e-3)
     assert np.max(np.abs(estimate[-1] - force)) < 2 * np.exp(-BANDWIDTH * 5) * np.max(force)
+
+
+@pytest.mark.parametrize("scale", [-0.2, 0.3])
+def test_what_scales_the_thrust_of_a_tumbling_vehicle_is_told_from_a_force(scale):
+    force, engine = np.array([0.3, -0.2, 0.1, 0.02, 0, 0.03]), EquationsEngine(VEHICLE.replace(rotor_lag=0))
+    update, memory = _update(2e-3), np.zeros(RECORD.length)
+    engine.reset(TUMBLING.packed(), np.full(4, HOVER))
+    shares = []
+    for _ in range(1500):
+        memory, forces, found = update(engine.packed, np.full(4, HOVER), memory, np.zeros(0))
+        shares.append(found.item() / scale)
+        for _ in range(4):
+            engine.step(np.full(4, (1 + scale) * HOVER), 5e-4, force)
+    # The constant force, which rises as slowly behind the filter as the thrust does at first, is not taken for a scale.
+    assert min(shares) > -0.05
+    assert max(shares) < 1.05
+    assert shares[-1] > 0.95
+    assert forces[:3] + forces[3:] == pytest.approx(force[:3] + force[3:], abs=0.03)
 
 
 def test_of_a_force_along_the_rod_the_sum_is_seen_and_not_who_feels_it():
@@ -308,7 +327,8 @@ def test_a_constant_wind_leaves_no_steady_position_error(log):
     estimate, force = log.forces[-1], np.array(WIND.on_vehicle + WIND.on_bob)
     np.testing.assert_allclose(estimate[:3] + estimate[3:], force[:3] + force[3:], rtol=0, atol=1e-3)
     along = (force[3:] / m - force[:3] / M) @ lean * lean
-    np.testing.assert_allclose(estimate[3:], force[3:] - m * M / (M + m) * along, rtol=0, atol=1e-3)
+    # Who feels what is along the rod is not seen, and a little of it passes for a scale of the thrust.
+    np.testing.assert_allclose(estimate[3:], force[3:] - m * M / (M + m) * along, rtol=0, atol=2e-3)
 
 
 def test_without_the_observer_the_wind_does_leave_one(log):

@@ -20,11 +20,12 @@ from flypend.model import State, linear_momentum
 from flypend.model.momenta import pull_on_rod
 from flypend.model.state import SIZE
 
-# Normal equations of the scale: how much of the unknown goes with the thrust, both about their means, N.
 TOLD = Record(
     "told",
     "What the flight tells of the scale of the thrust.",
     (
+        Field("risen", 0, "a constant behind the filter of the observer, since the begin"),
+        Field("weight", 0, "of the means, s"),
         Field("thrust", 3, "mean of the thrust, world, e3 up, N"),
         Field("unknown", 3, "mean of the unknown forces, N"),
         Field("square", 0, "of the thrust about its mean, N^2 s"),
@@ -43,7 +44,7 @@ RECORD = Record(
         Field("told", TOLD.length, "of the scale of the thrust"),
     ),
 )
-# Time over which means are taken, s: a constant force is part of the mean, a swing-up turns the thrust several times.
+# Time over which means are taken, s: those of what is not yet constant behind the filter, by how far that has risen. A constant force is part of the mean, a swing-up turns the thrust several times.
 MEAN = 1.0
 # Thrust that departs from its mean by a share of the weight tells the scale, and counts half at VARIES; in hover it
 # tells nothing, and the scale stays. What was told is forgotten over FORGETTING (s of varying thrust), as is a battery.
@@ -69,8 +70,8 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     gap, only initialises the momenta and leaves the estimates unchanged.
 
     A scale s of the thrust adds s f z to the unknown term of P, and −s (f/Ml) y × z to that of H. Filtered like N̂,
-    these are s T, and N̂ = s T + F: s follows by least squares from how N̂ and T vary together about their means, and
-    N̂ − s T is what forces explain.
+    these are s T, and N̂ = s T + F (1 − e^{−Lt}): s follows by least squares from how N̂ and T vary together about their
+    means, and N̂ − s T is what forces explain.
 
     Parameters
     ----------
@@ -86,7 +87,7 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     Returns
     -------
     Function
-        Inputs: state (24,), thrusts (k,), N, memory (33,) and params. Outputs: memory, the forces (6,) on vehicle and
+        Inputs: state (24,), thrusts (k,), N, memory (35,) and params. Outputs: memory, the forces (6,) on vehicle and
         bob, N, and the scale, true over modelled thrust, less 1.
     """
     vehicle, L = believed.vehicle, computer.observer
@@ -103,7 +104,7 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     following = ca.if_else(begun, following, measured - estimate / L)  # keeps the estimate unchanged
     unknown = L * (measured - following)
     thrust = thrust + L * period * (by_thrust - thrust)
-    told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], begun, period, vehicle.weight)
+    told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], begun * period, L, vehicle.weight)
     rest = unknown - scale * thrust
     total, difference = rest[:3], l * cross(rest[3:], s.y)  # F_v + F_b, and D without its component along the rod
     on_bob = m * M / (M + m) * (difference + total / M)
@@ -115,14 +116,19 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
 
 
 def _learn(
-    told: Mapping[str, Any], thrust: Vector, unknown: Vector, begun: Scalar, period: float, weight: Scalar
+    told: Mapping[str, Any], thrust: Vector, unknown: Vector, period: Scalar, L: float, weight: Scalar
 ) -> tuple[Numbers, Scalar]:
-    """Return `TOLD` after a period (s) with these `thrust` and `unknown` (3,), N, and the scale; see `observer`."""
-    off, beside = thrust - told["thrust"], unknown - told["unknown"]
-    square, follow = ca.sumsqr(off), ca.if_else(begun, period / MEAN, 1)
-    share = begun * period * square / (square + (VARIES * weight) ** 2)
+    """Return `TOLD` after a `period` (s) with these `thrust` and `unknown` (3,), N, and the scale; see `observer`."""
+    risen = told["risen"] + L * period * (1 - told["risen"])
+    weighed = (1 - period / MEAN) * told["weight"] + period * risen**2
+    follow = period * risen / (weighed + 1e-9)  # none before the first period
+    off, beside = thrust - risen * told["thrust"], unknown - risen * told["unknown"]
+    square = ca.sumsqr(off)
+    share = period * square / (square + (VARIES * weight) ** 2)
     kept = 1 - share / FORGETTING
     after = {
+        "risen": risen,
+        "weight": weighed,
         "thrust": told["thrust"] + follow * off,
         "unknown": told["unknown"] + follow * beside,
         "square": kept * told["square"] + share * square,

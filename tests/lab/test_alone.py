@@ -121,9 +121,8 @@ def test_a_figure_plays_only_in_sight_and_leaves_the_wheel_to_its_page(offline, 
     around = f"""<!doctype html><title>Text</title><body style="margin: 0"><div style="height: 3000px"></div>
       <iframe src="{chapters.as_uri()}?figure=throw" width="704" height="432"></iframe><div style="height: 3000px">"""
     (tmp_path / "text.html").write_text(around, encoding="utf-8")
-    page = offline(
-        (tmp_path / "text.html").as_uri(), beside=(chapters.as_uri(),), viewport={"width": 800, "height": 600}
-    )
+    own = {"beside": (chapters.as_uri(),), "drawn": True, "viewport": {"width": 800, "height": 600}}
+    page = offline((tmp_path / "text.html").as_uri(), **own)
     frame = page.frames[1]
     frame.wait_for_function("() => window.flypend")
     page.wait_for_timeout(500)

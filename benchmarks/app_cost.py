@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 import subprocess
 import tempfile
+from functools import cache
 from pathlib import Path
 
 import flypend as fp
@@ -25,6 +26,7 @@ HEADERS = (
     "motors.h", "param.h", "platform_defaults.h", "pm.h", "stabilizer_types.h", "supervisor.h",
 )  # fmt: skip
 FLAGS = (*cortex.FLAGS, "-Os", "-fno-math-errno", "-ffunction-sections", "-fdata-sections", "-std=gnu11")
+INCLUDED = ("-I.", f"-I{STANDINS / 'crazyflie'}")
 FEW = 212  # ms in the app, the last of them under the law: each instruction of them is traced
 LAWS = {  # and what `export_app` takes beside them
     "inverted": (fp.laws.inverted, {}),
@@ -61,9 +63,9 @@ def exported(name: str, vehicle: fp.Vehicle, folder: Path) -> Path:
 
 def stack(app: Path, *defined: str) -> tuple[int, int]:
     """Bytes of stack of the app's controller, and in how many periods the law flew, refusals and a landing beside."""
-    headers = ("-I.", f"-I{STANDINS / 'crazyflie'}")
-    words = [*FLAGS, *defined, *headers, *cortex.LINKED, *_sources(app), STANDINS / "stack.c", "-lm"]
-    return _run("arm-none-eabi-gcc", *words, "-o", "stack.elf", folder=app) or _painted(app / "stack.elf")
+    words = [*FLAGS, *defined, *INCLUDED, *cortex.LINKED, *_objects(app), STANDINS / "stack.c", "-lm"]
+    _run("arm-none-eabi-gcc", *words, "-o", "stack.elf", folder=app)
+    return _painted(app / "stack.elf")
 
 
 def app_cycles(app: Path) -> int:
@@ -75,15 +77,17 @@ def app_cycles(app: Path) -> int:
 
 def size(folder: Path) -> tuple[int, int]:
     """Bytes of flash and of RAM of the objects."""
-    names = _sources(folder)
-    _run("arm-none-eabi-gcc", *FLAGS, "-I.", f"-I{STANDINS / 'crazyflie'}", "-c", *names, folder=folder)
-    lines = _run("arm-none-eabi-size", *(name.replace(".c", ".o") for name in names), folder=folder).splitlines()
+    lines = _run("arm-none-eabi-size", *_objects(folder), folder=folder).splitlines()
     text, data, bss = (sum(int(line.split()[i]) for line in lines[1:]) for i in range(3))
     return text + data, data + bss
 
 
-def _sources(folder: Path) -> list[str]:
-    return sorted(path.name for path in folder.glob("flypend_*.c"))
+@cache
+def _objects(folder: Path) -> list[str]:
+    """Compile the sources in `folder`, once for all that is measured of them."""
+    sources = sorted(path.name for path in folder.glob("flypend_*.c"))
+    _run("arm-none-eabi-gcc", *FLAGS, *INCLUDED, "-c", *sources, folder=folder)
+    return [name.replace(".c", ".o") for name in sources]
 
 
 def _painted(elf: Path) -> tuple[int, int]:

@@ -58,17 +58,19 @@ def offline(chromium):
     """Return a function that opens a file in a context of its own, without a network; arguments are the context's.
 
     Unless `drawn`, it leaves out draw calls: the scene takes a processor more time than all else that a page does.
-    At the end no page has asked for anything, and none has complained.
+    A page of a server is opened with offline=False, and may ask that server. At the end no page has asked for anything
+    but itself and the files `beside` it, and none has complained.
     """
     from benchmarks.frames import UNDRAWN  # imported here: most tests open no page
 
-    contexts, asked, complaints = [], [], []
+    contexts, asked, complaints, known = [], [], [], ["data:,", "blob:", "about:srcdoc"]
 
-    def open_(address, *, drawn=True, **setting):
-        context = chromium.new_context(offline=True, **setting)
+    def open_(address, *, drawn=False, beside=(), **setting):
+        context = chromium.new_context(**{"offline": True} | setting)
         if not drawn:
             context.add_init_script(UNDRAWN)
         contexts.append(context)
+        known.extend((address.partition("#")[0], *beside))
         page = context.new_page()
         page.on("request", lambda request: asked.append(request.url))
         page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
@@ -80,7 +82,7 @@ def offline(chromium):
     for context in contexts:
         context.close()
     assert complaints == []
-    assert [url for url in asked if not url.startswith(("file://", "data:,", "blob:"))] == []
+    assert [url for url in asked if not url.startswith(tuple(known))] == []
 
 
 @pytest.fixture(scope="session")

@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -72,16 +73,30 @@ def defined(constants, *headers):
     return "\n".join([*lines, "}\n"])
 
 
-def run(folder, loop, constants, headers, programs, width=2):
-    """Run `programs` around a `loop`, built with sanitizers; return what it tells, and rows of numbers."""
-    given, around = folder / "constants.cpp", folder / "programs.cpp"
-    given.write_text(defined(constants, *headers), encoding="utf-8")
-    around.write_text(programs, encoding="utf-8")
-    sources = [SOURCE / f"{loop}.cpp", given, around]
-    options = [*FLAGS, *SANITISERS, f"-DWIDTH={width}", "-I", SOURCE]
-    subprocess.run([clang(), "-x", "c++", *options, *sources, "-lstdc++", "-lm", "-o", folder / "fly"], check=True)
-    told = subprocess.run([folder / "fly"], capture_output=True, text=True)
-    return told, [[float(word) for word in line.split()] for line in told.stdout.splitlines()]
+@pytest.fixture(scope="module")
+def fly(tmp_path_factory):
+    """Return a function that runs `programs` around a `loop`, built with sanitizers, and tells what it says, and rows.
+
+    What two of them share is compiled once: the loop, but for its constants.
+    """
+    folder = tmp_path_factory.mktemp("loops")
+
+    @cache
+    def compiled(text, width):
+        path = folder / f"{len(list(folder.iterdir()))}.cpp"
+        path.write_text(text, encoding="utf-8")
+        options = [*FLAGS, *SANITISERS, f"-DWIDTH={width}", "-I", SOURCE]
+        subprocess.run([clang(), *options, "-c", path, "-o", path.with_suffix(".o")], check=True)
+        return path.with_suffix(".o")
+
+    def run(loop, constants, headers, programs, width=2):
+        texts = (f'#include "{loop}.cpp"\n', defined(constants, *headers), programs)
+        objects = [compiled(text, width) for text in texts]
+        subprocess.run([clang(), *SANITISERS, *objects, "-lstdc++", "-lm", "-o", folder / "fly"], check=True)
+        told = subprocess.run([folder / "fly"], capture_output=True, text=True)
+        return told, [[float(word) for word in line.split()] for line in told.stdout.splitlines()]
+
+    return run
 
 
 def source(name):
@@ -89,10 +104,10 @@ def source(name):
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
-def flown(folder, name, smooth=1, extra=("", "")):
+def flown(fly, name, smooth=1, extra=("", "")):
     """Rows that the oscillators print; in the source of the programs, the second of `extra` replaces the first."""
     constants = {**SIZES, "SMOOTH": smooth, **runge_kutta._tableau(method(name))}
-    return run(folder, "runge_kutta", constants, ["open.hpp"], source("oscillators.cpp").replace(*extra))
+    return fly("runge_kutta", constants, ["open.hpp"], source("oscillators.cpp").replace(*extra))
 
 
 def exact(start, omega, t):
@@ -103,9 +118,9 @@ def exact(start, omega, t):
 
 @pytest.mark.parametrize("smooth", [1, 0])
 @pytest.mark.parametrize("name", NAMES)
-def test_oscillators_fly_without_undefined_behaviour(tmp_path, name, smooth):
+def test_oscillators_fly_without_undefined_behaviour(fly, name, smooth):
     """Seven runs through two lanes: statuses, samples, verdicts and touches, against the solution in closed form."""
-    told, rows = flown(tmp_path, name, smooth)
+    told, rows = flown(fly, name, smooth)
     assert told.returncode == 0, told.stderr
     starts = [(1, 0.5, 0, 0), (0, 1, 1, 0), (3, 0, 0, 0), None, (0.5, 0, 0, 5), (0.4, -1, 0, 0.1), (1.9, 0, 1, 0)]
     omegas = [1, 2, 1, 1, 2, 3, 1]
@@ -140,9 +155,9 @@ def test_oscillators_fly_without_undefined_behaviour(tmp_path, name, smooth):
     assert rows[6][2] == pytest.approx(np.arctan2(1, 1.9) - np.arccos(2 / amplitude), abs=1e-6)
 
 
-def test_a_write_beyond_a_vector_is_found(tmp_path):
+def test_a_write_beyond_a_vector_is_found(fly):
     """The negative control: a program that writes a fourth entry of the drift, which has three."""
-    told, _ = flown(tmp_path, "dp5", extra=("i < 3; i++) drift", "i < 4; i++) drift"))
+    told, _ = flown(fly, "dp5", extra=("i < 3; i++) drift", "i < 4; i++) drift"))
     assert told.returncode != 0
     assert "AddressSanitizer" in told.stderr
 
@@ -197,11 +212,11 @@ def driven(start, gain, seed, ticks=200):
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
-def test_carts_fly_without_undefined_behaviour(tmp_path, variant):
+def test_carts_fly_without_undefined_behaviour(fly, variant):
     """Five flights: samples, reductions, statuses and touches, against the same step by step."""
     width, other = VARIANTS[variant]
     headers = ["sampled.hpp", "mujoco.hpp", "elementary.hpp"]
-    told, rows = run(tmp_path, "sampled", CARTS | other, headers, source("carts.cpp"), width)
+    told, rows = fly("sampled", CARTS | other, headers, source("carts.cpp"), width)
     assert told.returncode == 0, told.stderr
     C, D, U, T = (getattr(runge_kutta, name) for name in ("COMPLETED", "DIVERGED", "UNDEFINED", "COLLIDED"))
     assert [row[0] for row in rows] == [C, C, T, U, D]

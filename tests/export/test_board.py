@@ -24,7 +24,8 @@ from flypend.plants.sensors import sensors_called
 
 VEHICLES = {name: fp.vehicle(name) for name in ("hehn2011", "crazyflie")}
 VEHICLE = VEHICLES["hehn2011"]
-INVERTED = fp.laws.inverted().bind(VEHICLE)
+LAW = fp.laws.inverted()  # one, which is compiled once
+INVERTED = LAW.bind(VEHICLE)
 OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE, NOT_BEGUN = range(9)
 START = fp.State.random(default_rng(3))
 LEAST, LARGEST = VEHICLE.rotor_limits
@@ -46,7 +47,7 @@ def board(precision="double", rate=500.0, law=INVERTED, vehicle=VEHICLE):
 )  # fmt: skip
 def test_it_commands_what_the_board_of_python_commands(machine, name, rate):
     vehicle = VEHICLES[machine]
-    law = fp.laws.inverted(form="light") if name == "light" else getattr(fp.laws, name)()
+    law = LAW if name == "inverted" else fp.laws.inverted(form="light") if name == "light" else getattr(fp.laws, name)()
     bound = law.bind(vehicle)
     loop = Loop(vehicle, bound, Sampled(rate=rate))
     steps = 30
@@ -84,7 +85,7 @@ def test_six_rotors_a_full_inertia_matrix_and_other_numbers_at_run_time():
 def test_one_program_is_one_function_however_often_it_is_called():
     told, slow = (fp.laws.inverted(latency=latency, delay_reach=0).bind(VEHICLE) for latency in (0.024, 0.075))
     for law, steps in ((INVERTED, 0), (told, 1), (slow, 3)):
-        routine = library(law, VEHICLE, "double").made.board
+        routine = interface(law, VEHICLE).board
         calls = [routine.programs[call.program].name for call in routine.calls]
         assert sum(name.startswith("twin") for name in calls) == steps
         assert len(set(calls)) == len(routine.programs)
@@ -109,7 +110,7 @@ MOVING = fp.laws.inverted(circle(0.5, 1.5), form="light")
 @pytest.mark.parametrize(
     ("law", "plant", "limit"),
     [
-        (fp.laws.inverted(), "mujoco", 1e-9), (fp.laws.inverted(), "rotors", 1e-9), (fp.laws.inverted(), WINDY, 1e-9),
+        (LAW, "mujoco", 1e-9), (LAW, "rotors", 1e-9), (LAW, WINDY, 1e-9),
         (fp.laws.corrected(), "rotors", 1e-9), (MOVING, "rotors", 1e-3),
     ],
 )  # fmt: skip
@@ -125,13 +126,13 @@ def test_nothing_of_the_flight_computer_is_left_in_python(monkeypatch):
         raise AssertionError("Python computed a command")
 
     monkeypatch.setattr(SteppedBoard, "command", no)
-    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE), START, 0.2)
+    run = fp.simulate(VEHICLE, compiled(LAW, VEHICLE), START, 0.2)
     assert run.outcome.status == "completed"
 
 
 def test_single_precision_inverts_as_well():
     python = fp.simulate(VEHICLE, fp.laws.inverted(), START, 4.0, plant="mujoco")
-    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), START, 4.0, plant="mujoco")
+    run = fp.simulate(VEHICLE, compiled(LAW, VEHICLE, "float"), START, 4.0, plant="mujoco")
     assert 1e-9 < _apart(python, run) < 1e-3  # another precision, the same flight
     assert np.max(np.abs(run.y[-20:] - [0, 0, 1])) < 0.05
 
@@ -140,21 +141,19 @@ def test_single_precision_inverts_as_well():
 def test_the_crazyflie_stands_inverted_by_the_exported_c_alone(plant):
     vehicle = VEHICLES["crazyflie"]
     starts = fp.State.random(default_rng(2024), 6)
-    runs = fp.simulate_ensemble(
-        vehicle, compiled(fp.laws.inverted(), vehicle, "float"), starts, 8.0, plant=plant, workers=1
-    )
+    runs = fp.simulate_ensemble(vehicle, compiled(LAW, vehicle, "float"), starts, 8.0, plant=plant, workers=1)
     assert runs.rate == 1.0
 
 
 def test_a_refused_state_ends_a_flight_as_singular(monkeypatch):
     monkeypatch.setattr(request, "MOST_SPIN", np.inf)  # a flight refuses such a start before the C does
     start = fp.State(y=(0, 0, 1), omega=(1e20, 1e20, 0))  # ω × I ω overflows single precision
-    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE, "float"), start, 0.1, plant="rotors")
+    run = fp.simulate(VEHICLE, compiled(LAW, VEHICLE, "float"), start, 0.1, plant="rotors")
     assert run.outcome.status == "singular"
 
 
 def test_it_needs_rotors_within_limits_and_its_vehicle():
-    flown = compiled(fp.laws.inverted(), VEHICLE)
+    flown = compiled(LAW, VEHICLE)
     for plant in ("ideal", "hehn2011", fp.Plant(limits=False)):
         with pytest.raises(fp.InputError, match="plant: expected rotor forces within limits"):
             fp.simulate(VEHICLE, flown, START, 0.1, plant=plant)
@@ -212,9 +211,9 @@ def test_the_safe_command_levels_where_the_attitude_can_be_trusted(name, status,
 @pytest.mark.parametrize("machine", VEHICLES)
 def test_without_a_rod_to_be_seen_the_vehicle_levels_out_and_carries_its_weight(machine, late):
     vehicle = VEHICLES[machine]
-    law = fp.laws.inverted().bind(vehicle)
+    law = LAW.bind(vehicle)
     delay = round(law.computer.latency * 500) if late else 0
-    for seed in range(6):
+    for seed in range(3):
         made, engine = board(law=law, vehicle=vehicle), EquationsEngine(vehicle)
         start, idle = fp.State.random(default_rng(seed)), np.full(4, vehicle.rotor_limits[0])
         engine.reset(fp.State(R=start.R, omega=start.omega, y=(0, 0, -1)).packed(), idle)
@@ -375,7 +374,7 @@ def test_a_memory_that_is_damaged_in_flight_begins_again(plant, monkeypatch):
         return command(self, t, measured)
 
     monkeypatch.setattr(CompiledBoard, "command", struck)
-    run = fp.simulate(VEHICLE, compiled(fp.laws.inverted(), VEHICLE), START, 6.0, plant=plant)
+    run = fp.simulate(VEHICLE, compiled(LAW, VEHICLE), START, 6.0, plant=plant)
     assert run.outcome.status == "completed"
     assert len(flown) == 4
     assert np.min(run.y[-20:, 2]) > 0.99

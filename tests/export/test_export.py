@@ -13,7 +13,7 @@ from numpy.random import default_rng
 import flypend as fp
 from flypend.export import records, vectors
 from flypend.export.interface import interface
-from flypend.export.library import library
+from flypend.export.library import Library, library
 from flypend.laws import Control, Law
 from flypend.laws.references import lemniscate
 from flypend.laws.throw import derivatives
@@ -316,7 +316,7 @@ def test_gains_that_are_not_finite_and_null_pointers_are_refused(monkeypatch):
 def test_without_a_compiler_there_is_one_line(monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
     with pytest.raises(fp.InputError, match="controller: expected a C compiler called cc"):
-        library.__wrapped__(INVERTED, VEHICLE, "double")
+        Library(INVERTED, VEHICLE, "double")
 
 
 # Export ---------------------------------------------------------------------------------------------------------

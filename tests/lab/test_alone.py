@@ -24,7 +24,7 @@ def file(tmp_path_factory):
 @pytest.fixture
 def visit(offline, file):
     def open_(hash_=""):
-        page = offline(file.as_uri() + hash_, drawn=False, viewport=WIDE, color_scheme="light")
+        page = offline(file.as_uri() + hash_, viewport=WIDE, color_scheme="light")
         shown(page)
         page.evaluate(AT_REST)
         return page
@@ -92,7 +92,7 @@ def chapters(tmp_path_factory):
 
 def test_the_chapters_are_a_page_of_their_own(offline, chapters):
     assert chapters.stat().st_size < 1.5e6
-    page = offline(chapters.as_uri(), drawn=False, viewport=WIDE, color_scheme="light")
+    page = offline(chapters.as_uri(), viewport=WIDE, color_scheme="light")
     shown(page)
     assert page.locator(".story .chips button").count() == len(offer()["story"])
     for step in offer()["story"]:
@@ -105,7 +105,7 @@ def test_the_chapters_are_a_page_of_their_own(offline, chapters):
 
 @pytest.mark.parametrize("step", [*story(), *figures()], ids=lambda step: step["name"])
 def test_a_figure_has_one_slider_and_one_plot_and_flies_as_in_the_package(offline, chapters, step):
-    page = offline(f"{chapters.as_uri()}?figure={step['name']}", drawn=False, viewport={"width": 704, "height": 432})
+    page = offline(f"{chapters.as_uri()}?figure={step['name']}", viewport={"width": 704, "height": 432})
     shown(page)
     page.evaluate("flypend.pause()")
     assert setting(page) == step["setting"]
@@ -121,7 +121,8 @@ def test_a_figure_plays_only_in_sight_and_leaves_the_wheel_to_its_page(offline, 
     around = f"""<!doctype html><title>Text</title><body style="margin: 0"><div style="height: 3000px"></div>
       <iframe src="{chapters.as_uri()}?figure=throw" width="704" height="432"></iframe><div style="height: 3000px">"""
     (tmp_path / "text.html").write_text(around, encoding="utf-8")
-    page = offline((tmp_path / "text.html").as_uri(), viewport={"width": 800, "height": 600})
+    own = {"beside": (chapters.as_uri(),), "drawn": True, "viewport": {"width": 800, "height": 600}}
+    page = offline((tmp_path / "text.html").as_uri(), **own)
     frame = page.frames[1]
     frame.wait_for_function("() => window.flypend")
     page.wait_for_timeout(500)
@@ -137,7 +138,7 @@ def test_a_figure_plays_only_in_sight_and_leaves_the_wheel_to_its_page(offline, 
 
 def test_a_figure_takes_theme_and_letters_of_the_page_around_it(offline, chapters, tmp_path):
     (tmp_path / "text.html").write_text(f'<title>Text</title><iframe src="{chapters.as_uri()}?figure=throw"></iframe>')
-    page = offline((tmp_path / "text.html").as_uri(), color_scheme="light")
+    page = offline((tmp_path / "text.html").as_uri(), beside=(chapters.as_uri(),), color_scheme="light")
     frame = page.frames[1]
     frame.wait_for_function("() => window.flypend")
     page.evaluate("frames[0].postMessage({ theme: 'dark', letters: 2 }, '*')")

@@ -25,9 +25,7 @@ def run():
 def visit(offline, tmp_path, run):
     def open_(query="", *, live=True, **setting):
         run.to_html(tmp_path / "page.html", live=live)
-        page = offline(
-            (tmp_path / "page.html").as_uri() + query, drawn=False, **{"viewport": SIZE, "has_touch": True} | setting
-        )
+        page = offline((tmp_path / "page.html").as_uri() + query, **{"viewport": SIZE, "has_touch": True} | setting)
         until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
         return page
 

@@ -35,7 +35,7 @@ def visit(offline, tmp_path):
     def open_(run, hash_="", **setting):
         path = tmp_path / f"{next(number)}.html"
         run.to_html(path, live=True)
-        page = offline(path.as_uri() + hash_, drawn=False, **{"viewport": SMALL, "color_scheme": "light"} | setting)
+        page = offline(path.as_uri() + hash_, **{"viewport": SMALL, "color_scheme": "light"} | setting)
         shown(page)
         page.evaluate(AT_REST)
         return page

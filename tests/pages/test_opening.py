@@ -20,7 +20,7 @@ def swing():
 def visit(offline, tmp_path):
     def open_(run, *, live=False, **setting):
         run.to_html(tmp_path / "page.html", live=live)
-        page = offline((tmp_path / "page.html").as_uri(), drawn=False, **{"viewport": SMALL} | setting)
+        page = offline((tmp_path / "page.html").as_uri(), **{"viewport": SMALL} | setting)
         until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
         return page
 

@@ -25,34 +25,20 @@ SMALL = {"width": 900, "height": 520}  # drawn fast enough in software
 
 
 @pytest.fixture
-def visit(chromium, tmp_path):
-    """Open the replay of a run from disk, offline; at the end nothing was requested and nothing complained."""
-    contexts, asked, complaints = [], [], []
+def visit(offline, tmp_path):
+    """Open the replay of a run from disk; see `offline`."""
     number = itertools.count()
 
-    def open_(run, *, setting=None, text=None, before=None, **options):
+    def open_(run, *, setting=None, text=None, drawn=False, **options):
         path = tmp_path / f"{next(number)}.html"
         path.write_text(run.to_html(**options) if text is None else text, encoding="utf-8")
-        context = chromium.new_context(offline=True, **{"viewport": SMALL, "color_scheme": "light"} | (setting or {}))
-        contexts.append(context)
-        page = context.new_page()
-        page.on("request", lambda request: asked.append(request.url))
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        if before:
-            page.add_init_script(before)
-        page.goto(path.as_uri())
+        page = offline(path.as_uri(), drawn=drawn, **{"viewport": SMALL, "color_scheme": "light"} | (setting or {}))
         page.wait_for_selector("main, iframe")
         if page.evaluate("Boolean(window.flypend?.playing())"):
             page.evaluate(AT_REST)
         return page
 
-    yield open_
-    for context in contexts:
-        context.close()
-    assert complaints == []
-    assert [url for url in asked if not url.startswith(("file://", "data:,", "about:srcdoc"))] == []
-    assert len([url for url in asked if url.startswith("file://")]) == len(contexts)
+    return open_
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +101,7 @@ def picture(page):
 
 
 def test_it_opens_from_disk_and_draws(visit, up):
-    page = visit(up)
+    page = visit(up, drawn=True)
     assert page.title() == page.locator("h1").inner_text() == "inverted law on hehn2011"
     assert page.evaluate("[flypend.time(), flypend.duration(), flypend.playing()]") == [0, 2, False]
     assert page.locator(".plot").count() == 4
@@ -241,7 +227,7 @@ def test_blades_blur_by_the_speed_of_their_rotor(visit):
     """At rest two blades are seen; in hover the same ink is spread over trails, paler and wider."""
     run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 4.0, plant="rotors")
     assert run.rotor_forces[0].max() < 0.1 * run.rotor_forces[-1].mean()
-    page = visit(run)
+    page = visit(run, drawn=True)
     rest, hover = ink(page, 0.0), ink(page, 4.0)
     # What is seen in both, the bob and the cage, is no blade.
     strong, faint = ((int(np.sum(a & ~b)), int(np.sum(b & ~a))) for a, b in zip(rest, hover, strict=True))
@@ -253,7 +239,7 @@ def test_whoever_wants_little_motion_sees_no_rotor_turn(visit, still):
     """The picture of a hovering machine is then the same at any time, but for rounding; otherwise its rotors turn."""
     changed = {}
     for wanted in ("reduce", "no-preference"):
-        page = visit(still, setting={"reduced_motion": wanted})
+        page = visit(still, drawn=True, setting={"reduced_motion": wanted})
         pictures = []
         for t in (0.5, 1.0, 1.03):  # after the first, all that belongs to the page stands where it belongs
             page.evaluate("t => flypend.seek(t)", t)
@@ -448,7 +434,7 @@ def movie(page, path):
 
 def test_a_movie_plays_at_its_speed_however_slowly_it_is_drawn(visit, up, tmp_path):
     """Each frame is the picture of its own time: of 2 s at twice their speed 30 a second, and 1.5 s of their end."""
-    page = visit(up, speed=2)
+    page = visit(up, speed=2, drawn=True)
     page.evaluate("flypend.seek(1.3)")
     frames, facts, name = movie(page, tmp_path / "a.webm")
     assert name == "inverted-law-on-hehn2011.webm"
@@ -579,7 +565,7 @@ def test_it_opens_with_a_machine_that_fills_a_third_of_the_picture(visit, up, vi
 
 def test_the_rod_is_seen_in_hover(visit, up):
     """The sum of the thrusts points along the rod; drawn solid, it would hide two thirds of it."""
-    page = visit(up)
+    page = visit(up, drawn=True)
     page.evaluate("flypend.camera('side'), flypend.seek(2)")
     pivot, bob = screen(page)
     seen = picture(page)
@@ -608,7 +594,7 @@ def test_whoever_wants_little_motion_gets_no_glide(visit, up):
 
 
 def test_a_ghost_shows(visit, up, lqr):
-    pages = [visit(up), visit(up, ghost=lqr)]
+    pages = [visit(up, drawn=True), visit(up, ghost=lqr, drawn=True)]
     for page in pages:
         page.evaluate("flypend.camera('follow'), flypend.seek(0.1)")
         screen(page)
@@ -711,7 +697,7 @@ def test_it_fits_a_wide_screen_without_scrolling(visit, up, lqr):
 def test_it_follows_the_theme_of_the_system(visit, up):
     brightness = []
     for scheme in ("light", "dark"):
-        page = visit(up, setting={"color_scheme": scheme})
+        page = visit(up, drawn=True, setting={"color_scheme": scheme})
         seen = np.asarray(Image.open(BytesIO(page.screenshot())).convert("L"))
         brightness.append(np.median(seen))
     assert brightness[0] > 230
@@ -790,7 +776,7 @@ def test_a_touch_is_marked_on_the_time_line_and_named(visit, collided):
 
 def test_the_part_that_was_touched_is_seen(visit, collided):
     """It has the colour of alarm once the flight is over, and not before."""
-    page = visit(collided, before="window.pixels = null")
+    page = visit(collided, drawn=True)
     shown = {}
     for when, t in (("before", collided.t[-1] - 0.02), ("after", 99)):
         page.evaluate("t => { flypend.camera('axis'); flypend.seek(t); flypend.screen(); }", float(t))

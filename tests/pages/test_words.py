@@ -24,6 +24,7 @@ FLIGHTS = [
     ("hehn2011", "almost_global", "ideal", "gimbal"),
     ("hehn2011", "inverted", fp.Plant(sensors="mocap", seed=1), "gimbal"),
 ]
+LAWS = {law: getattr(fp.laws, law)() for _, law, _, _ in FLIGHTS}
 
 
 def flown(count):
@@ -34,9 +35,9 @@ def flown(count):
         lean = rng.choice([0.1, np.pi]) * rng.random()
         heading = 2 * np.pi * rng.random()
         rod = (np.sin(lean) * np.cos(heading), np.sin(lean) * np.sin(heading), np.cos(lean))
-        start = fp.State(y=rod, x=rng.normal(0, 0.3, 3)).in_frame(getattr(fp.laws, law)().e3)
+        start = fp.State(y=rod, x=rng.normal(0, 0.3, 3)).in_frame(LAWS[law].e3)
         machine = fp.vehicle(vehicle).replace(mount=mount)
-        runs.append(fp.simulate(machine, getattr(fp.laws, law)(), start, DURATION.get(law, 6.0), plant=plant))
+        runs.append(fp.simulate(machine, LAWS[law], start, DURATION.get(law, 6.0), plant=plant))
     return runs
 
 

@@ -87,6 +87,17 @@ def test_gains_are_as_calm_as_the_sensors_need():
     assert slower.gains == law.gains
 
 
+def test_a_law_that_is_built_anew_is_as_calm_without_a_search(monkeypatch):
+    """As for each flight of a page. Other gains are searched for, and so are those that are given."""
+    found = calm(inverted().bind(VEHICLE), Plant(sensors=SLOW))
+    monkeypatch.setattr("flypend.plants.tremor.tremor", lambda *_: 1 / 0)
+    assert calm(inverted().bind(VEHICLE), Plant(sensors=SLOW)).calm == found.calm > 0
+    others = ({"rod_damping": 1.01 * found.gains["rod_damping"]}, {"rod_damping": found.gains["rod_damping"]})
+    for law in (inverted(**gains) for gains in others):
+        with pytest.raises(ZeroDivisionError):
+            calm(law.bind(VEHICLE), Plant(sensors=SLOW))
+
+
 def test_gains_are_calm_near_the_reference_only():
     """Far away, moments are those of the law as it is; near, they follow the axis with more damping."""
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", 24)

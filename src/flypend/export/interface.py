@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -130,7 +131,12 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
     """
     vehicle = vehicle.commanded()
     vehicle.sharing()  # refuses rotors that `allocate` cannot share out
-    loop = Loop(vehicle, law.bind(vehicle), Sampled(rate=rate))
+    return _interface(law.bind(vehicle), vehicle, float(rate), sensors)
+
+
+@lru_cache(maxsize=8)  # each precision takes the same
+def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | None) -> Interface:
+    loop = Loop(vehicle, law, Sampled(rate=rate))
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
     params = ca.SX.sym("params", record.length)
     stand_in = SymbolicVehicle(params, record, vehicle)

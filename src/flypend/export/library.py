@@ -253,7 +253,6 @@ def _compile(folder: Path) -> Path:
     return target
 
 
-@lru_cache(maxsize=16)
 def library(
     law: Law | BoundLaw,
     vehicle: Vehicle,
@@ -262,6 +261,11 @@ def library(
     sensors: Sensors | None = None,
 ) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
+    return _library(law.bind(vehicle), vehicle, precision, rate, sensors)
+
+
+@lru_cache(maxsize=16)
+def _library(law: BoundLaw, vehicle: Vehicle, precision: Precision, rate: float, sensors: Sensors | None) -> Library:
     return Library(law, vehicle, precision, rate, sensors)
 
 

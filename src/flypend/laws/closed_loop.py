@@ -164,7 +164,11 @@ def check_parameters(law: str, wrench: Numbers, parameters: Sequence[str], symbo
 
 def close_loop(vehicle: Vehicle, law: Law | BoundLaw, *, lag: bool = False) -> ClosedLoop:
     """Build the closed loop of `vehicle` under `law` as CasADi functions; `lag` as in `symbolic_loop`."""
-    bound = law.bind(vehicle)
+    return _close_loop(vehicle, law.bind(vehicle), lag)
+
+
+@lru_cache(maxsize=8)  # what a theorem says of each of many starts takes the same
+def _close_loop(vehicle: Vehicle, bound: BoundLaw, lag: bool) -> ClosedLoop:
     loop = symbolic_loop(vehicle, bound, lag=lag)
     outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())
     rates, outputs = ca.cse([loop.rates, ca.densify(outputs)])

@@ -16,15 +16,17 @@ some 5 % more with motion capture, and up to a fifth more on board: forces and b
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from flypend.geometry import E3, Numbers
 from flypend.laws import BoundLaw
+from flypend.laws.bound import Computer
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, linearise, open_loop
 from flypend.laws.references import hover
 from flypend.laws.throw import carrying
@@ -74,6 +76,26 @@ def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
 @lru_cache(maxsize=64)
 def _calm(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> BoundLaw:
     """Return `law` with the least share of calm with which it trembles by no more than `CALM_TREMOR`; else with all."""
+    gains, prepared = tuple(law.gains.items()), repr(law.calmed(1.0).prepared)
+    steering = _Steering(law.control, law.vehicle, law.computer, gains, prepared, law)
+    return law.calmed(_share(steering, sensors, period, delay))
+
+
+@dataclass(frozen=True)
+class _Steering:
+    """What the tremor of a `law` depends on: laws built anew, as for each flight of a page, share an answer."""
+
+    control: Callable[..., Any]
+    vehicle: Vehicle
+    computer: Computer
+    gains: tuple[tuple[str, Any], ...]
+    prepared: str  # for the calmest, whose ratios name the gains that were not given
+    law: BoundLaw = field(compare=False)
+
+
+@lru_cache(maxsize=64)
+def _share(steering: _Steering, sensors: Sensors, period: float, delay: float) -> float:
+    law = steering.law
     vehicle = law.vehicle
     light = vehicle.replace(**{name: share * getattr(vehicle, name) for name, share in LIGHT.items()})
 
@@ -82,12 +104,12 @@ def _calm(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> Bound
         return any(tremor(calmed, sensors, period, delay, flown).axis > CALM_TREMOR for flown in (vehicle, light))
 
     if not trembles(0):
-        return law
+        return 0.0
     low, high = 0, SHARES
     while high - low > 1:
         middle = (low + high) // 2
         low, high = (middle, high) if trembles(middle) else (low, middle)
-    return law.calmed(high / SHARES)
+    return high / SHARES
 
 
 def too_noisy(law: BoundLaw, plant: AnyPlant) -> str:
@@ -153,6 +175,7 @@ def estimate_errors(vehicle: Vehicle, sensors: Sensors, period: float, times: in
     return over, added
 
 
+@lru_cache(maxsize=16)
 def _motion(vehicle: Vehicle) -> tuple[Numbers, Numbers]:
     """Return A and B of `vehicle` in hover."""
     A, B = open_loop(vehicle, "up", State(y=E3), Wrench(vehicle.weight, np.zeros(3)))
@@ -165,10 +188,8 @@ def _loop(law: BoundLaw, flown: Vehicle, period: float, delay: float) -> tuple[N
     The computer predicts with the vehicle of `law`.
     """
     vehicle, computer, one = law.vehicle, law.computer, np.eye(4)
-    A, B = _motion(vehicle)
+    (A, B), K = _motion(vehicle), _feedback(law)
     n = len(A)
-    held = law if law.along is None else law.along(carrying(hover()))
-    K = np.linalg.pinv(B) @ (A - linearise(held, vehicle, State(y=E3)).A[np.ix_(KEPT, KEPT)])
     lag = max(vehicle.rotor_lag, SHORTEST_LAG * period)
     lead = min(computer.lead, largest_lead(lag, period))
     finds = computer.delay_reach > 0
@@ -190,6 +211,15 @@ def _loop(law: BoundLaw, flown: Vehicle, period: float, delay: float) -> tuple[N
     loop[n + 4 :] = command
     misled = lead * K @ ahead[:, :n] @ exponential(A * predicted)
     return loop, np.concatenate([step[:, n + 4 :] @ misled, misled])
+
+
+@lru_cache(maxsize=16)
+def _feedback(law: BoundLaw) -> Numbers:
+    """Return K of the command −K ξ̂ of `law` in hover."""
+    A, B = _motion(law.vehicle)
+    held = law if law.along is None else law.along(carrying(hover()))
+    K: Numbers = np.linalg.pinv(B) @ (A - linearise(held, law.vehicle, State(y=E3)).A[np.ix_(KEPT, KEPT)])
+    return K
 
 
 def _filtered(A: Numbers, sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:

@@ -70,9 +70,9 @@ def test_a_false_delay_in_a_throw_is_taken_for_no_moment(y):
     ids=["weak rotors", "light inertia", "centre of mass off"],
 )
 def test_the_strength_of_moments_is_found_in_a_throw(wrong, strength, sensors):
-    """A lever is told from it: the thrust changes as well."""
+    """To a quarter, since one throw stands against the doubt before the flight. A lever is told from it."""
     plant = ROTORS.replace(sensors=sensors, delay=0.02, **wrong)
-    assert found(plant, 3.0, y=(0.0, 0.6, -0.8), what="strength")[-1] == pytest.approx(strength, abs=0.05)
+    assert found(plant, 3.0, y=(0.0, 0.6, -0.8), what="strength")[-1] == pytest.approx(strength, rel=0.25, abs=0.03)
 
 
 def test_a_light_machine_with_weak_rotors_and_a_short_rod_stands():

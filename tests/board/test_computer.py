@@ -12,7 +12,7 @@ from flypend.board.observer import RECORD, observer
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.laws import Computer
-from flypend.plants import MOTION_CAPTURE, Plant, Wind
+from flypend.plants import MOTION_CAPTURE, ROTORS, Plant, Wind
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
 
@@ -367,3 +367,12 @@ def test_the_lead_does_not_overshoot_within_a_period():
     assert usable_lead(bound, vehicle, slow) * (1 - np.exp(-0.02 / 0.02)) == pytest.approx(1, abs=1e-12)
     run = fp.simulate(vehicle, law, fp.State(y=(0, np.sin(0.1), np.cos(0.1))), 6.0, plant=slow)
     assert np.max(np.abs(run.z[-100:] - [0, 0, 1])) < 1e-3
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.02])
+def test_a_light_machine_with_strong_rotors_stands(delay):
+    """By a force that stays, instead of a scale of the thrust, none of these did."""
+    vehicle = fp.vehicle("crazyflie")
+    plant = ROTORS.replace(mismatch={"mass": 0.8}, strength=1.15, delay=delay)
+    runs = fp.simulate_ensemble(vehicle, fp.laws.inverted(), fp.random_starts(12, 4321), 15.0, plant=plant)
+    assert runs.success.all()

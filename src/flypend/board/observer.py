@@ -44,7 +44,8 @@ RECORD = Record(
         Field("told", TOLD.length, "of the scale of the thrust"),
     ),
 )
-# Time over which means are taken, s: those of what is not yet constant behind the filter, by how far that has risen. A constant force is part of the mean, a swing-up turns the thrust several times.
+# Time over which means are taken, s, each value counting by how far a constant has risen behind the filter. A constant
+# force is part of the mean; a swing-up turns the thrust several times.
 MEAN = 1.0
 # Thrust that departs from its mean by a share of the weight tells the scale, and counts half at VARIES; in hover it
 # tells nothing, and the scale stays. What was told is forgotten over FORGETTING (s of varying thrust), as is a battery.
@@ -56,7 +57,7 @@ MOST = 0.6
 
 
 def observer(believed: Believed, computer: Computer, period: float, thrusts: int) -> ca.Function:
-    """Build two momentum observers with one bandwidth L, e₃ up: (state, thrusts, memory, params) → (memory, forces).
+    """Build two momentum observers with one bandwidth L, e₃ up: (state, thrusts, memory, params) → (memory, forces, scale).
 
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
     Ḣ = −(f/Ml) y × z + y × D/l with D = F_b/m − F_v/M. Each unknown term N enters as Ḣ = known + N and is estimated by

@@ -74,7 +74,9 @@ class Kept:
         "--keep", metavar="EXPR", help='What must always hold, such as "norm(x) < 1, y[2] > 0"; or file.py:function.'
     )
     cost: str | None = option(
-        "--cost", metavar="EXPR", help='Term whose square adds to the objective, such as "x_dot[0]"; or file.py:function.'
+        "--cost",
+        metavar="EXPR",
+        help='Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.',
     )
 
     def state(self, target: ArrayLike) -> State | None:

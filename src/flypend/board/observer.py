@@ -57,7 +57,7 @@ MOST = 0.6
 
 
 def observer(believed: Believed, computer: Computer, period: float, thrusts: int) -> ca.Function:
-    """Build two momentum observers with one bandwidth L, e₃ up: (state, thrusts, memory, params) → (memory, forces, scale).
+    """Build two momentum observers with one bandwidth L, e₃ up, which tell external forces and a scale of the thrust.
 
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
     Ḣ = −(f/Ml) y × z + y × D/l with D = F_b/m − F_v/M. Each unknown term N enters as Ḣ = known + N and is estimated by

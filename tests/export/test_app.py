@@ -477,7 +477,7 @@ def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp
     }
     told = fits.compiled(tuple(sorted(texts.items())), "a Crazyflie")
     # Frames are multiples of 8. The deepest call with a plan is not the one that the estimate adds the app's frames to.
-    assert 0 <= told["bytes of stack"] - used <= 40
+    assert 0 <= told["bytes of stack"] - used <= 48
     flash, memory = size(app)
     assert told["bytes of flash"] == pytest.approx(flash, rel=0.02)
     assert told["bytes of RAM"] == pytest.approx(memory, rel=0.05)

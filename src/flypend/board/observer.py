@@ -25,11 +25,11 @@ TOLD = Record(
     "What the flight tells of the scale of the thrust.",
     (
         Field("risen", 0, "a constant behind the filter of the observer, since the begin"),
-        Field("weight", 0, "of the means, s"),
+        Field("weight", 0, "of the means, control periods"),
         Field("thrust", 3, "mean of the thrust, world, e3 up, N"),
         Field("unknown", 3, "mean of the unknown forces, N"),
-        Field("square", 0, "of the thrust about its mean, N^2 s"),
-        Field("product", 0, "of both about their means, N^2 s"),
+        Field("square", 0, "of the thrust about its mean, summed, N^2"),
+        Field("product", 0, "of both about their means, summed, N^2"),
     ),
 )
 RECORD = Record(
@@ -105,7 +105,7 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     following = ca.if_else(begun, following, measured - estimate / L)  # keeps the estimate unchanged
     unknown = L * (measured - following)
     thrust = thrust + L * period * (by_thrust - thrust)
-    told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], begun * period, L, vehicle.weight)
+    told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], period, L, vehicle.weight)
     rest = unknown - scale * thrust
     total, difference = rest[:3], l * cross(rest[3:], s.y)  # F_v + F_b, and D without its component along the rod
     on_bob = m * M / (M + m) * (difference + total / M)
@@ -117,16 +117,16 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
 
 
 def _learn(
-    told: Mapping[str, Any], thrust: Vector, unknown: Vector, period: Scalar, L: float, weight: Scalar
+    told: Mapping[str, Any], thrust: Vector, unknown: Vector, period: float, L: float, weight: Scalar
 ) -> tuple[Numbers, Scalar]:
     """Return `TOLD` after a `period` (s) with these `thrust` and `unknown` (3,), N, and the scale; see `observer`."""
     risen = told["risen"] + L * period * (1 - told["risen"])
-    weighed = (1 - period / MEAN) * told["weight"] + period * risen**2
-    follow = period * risen / (weighed + 1e-9)  # none before the first period
+    weighed = (1 - period / MEAN) * told["weight"] + risen**2
+    follow = risen / weighed
     off, beside = thrust - risen * told["thrust"], unknown - risen * told["unknown"]
     square = ca.sumsqr(off)
-    share = period * square / (square + (VARIES * weight) ** 2)
-    kept = 1 - share / FORGETTING
+    share = square / (square + (VARIES * weight) ** 2)
+    kept = 1 - period / FORGETTING * share
     after = {
         "risen": risen,
         "weight": weighed,
@@ -135,5 +135,5 @@ def _learn(
         "square": kept * told["square"] + share * square,
         "product": kept * told["product"] + share * ca.dot(off, beside),
     }
-    scale = after["product"] / (after["square"] + DOUBT * weight**2)
+    scale = after["product"] / (after["square"] + DOUBT / period * weight**2)
     return TOLD.join(after), ca.fmin(ca.fmax(scale, -MOST), MOST)

@@ -24,7 +24,7 @@ TOLD = Record(
     "told",
     "What the flight tells of the scale of the thrust.",
     (
-        Field("risen", 0, "a constant behind the filter of the observer, since the begin"),
+        Field("risen", 0, "a constant 1 behind the filter of the observer, from its first step on"),
         Field("weight", 0, "of the means, control periods"),
         Field("thrust", 3, "mean of the thrust, world, e3 up, N"),
         Field("unknown", 3, "mean of the unknown forces, N"),
@@ -48,9 +48,9 @@ RECORD = Record(
 # force is part of the mean; a swing-up turns the thrust several times.
 MEAN = 1.0
 # Thrust that departs from its mean by a share of the weight tells the scale, and counts half at VARIES; in hover it
-# tells nothing, and the scale stays. What was told is forgotten over FORGETTING (s of varying thrust), as is a battery.
+# tells nothing, and the scale stays. While it varies, what was told is forgotten over FORGETTING (s): batteries sag.
 VARIES, FORGETTING = 0.1, 2.0
-# A tenth of the weight for half a second weighs as much as what is assumed before the flight, which is no scale.
+# A tenth of the weight for a second weighs as much as what is assumed before the flight, which is no scale.
 DOUBT = 0.005
 # Largest scale that is believed, either way: masses 20 % lighter under rotors 15 % stronger make 0.44.
 MOST = 0.6

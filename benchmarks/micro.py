@@ -32,7 +32,7 @@ from benchmarks.results import record
 from flypend.export.nmpc import COARSER, PHASES, export_nmpc, programs_of, table_of
 from flypend.flight.metrics import wilson
 from flypend.laws import Controller
-from flypend.planning.coarse import coarsened
+from flypend.planning.planner import coarsened
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
 
 DURATION = 5.0  # s

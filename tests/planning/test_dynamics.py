@@ -10,8 +10,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.geometry import rotation_defect
 from flypend.model.state import SIZE
 from flypend.planning.constraints import own_function
-from flypend.planning.coordinates import local, plane, retract
-from flypend.planning.dynamics import Stage, Units
+from flypend.planning.dynamics import Stage, Units, local, plane, retract
 from flypend.planning.inequalities import Barrier, Structure, end_errors
 from flypend.planning.riccati import Layout
 from flypend.plants.equations import EquationsEngine

@@ -8,9 +8,8 @@ from flypend.flight.tasks import task_starts
 from flypend.planning.durations import HORIZONS
 from flypend.planning.planner import ORDER
 from flypend.planning.problem import request
-from flypend.planning.programs import programs
 from flypend.planning.search import Job, make_guesses, one_by_one
-from flypend.planning.solver import Solver
+from flypend.planning.solver import Solver, programs
 from flypend.planning.verdict import plans_of
 
 HEHN = fp.vehicle("hehn2011")

@@ -11,9 +11,8 @@ from flypend.planning.constraints import broken
 from flypend.planning.dynamics import LEAST_ROOM, Units
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
-from flypend.planning.programs import programs
 from flypend.planning.search import FINAL, STATIONARY, Job, make_guesses, together
-from flypend.planning.solver import DEFAULT, Solver
+from flypend.planning.solver import DEFAULT, Solver, programs
 from flypend.planning.verdict import plans_of
 from flypend.plants.equations import EquationsEngine
 

@@ -16,10 +16,9 @@ from flypend.planning import feedback
 from flypend.planning.dynamics import Units
 from flypend.planning.inequalities import Structure
 from flypend.planning.problem import request
-from flypend.planning.programs import programs
 from flypend.planning.riccati import backward
 from flypend.planning.search import Job, Race, make_guesses, work
-from flypend.planning.solver import Problem, Solver
+from flypend.planning.solver import Problem, Solver, programs
 from flypend.plants.lag import step_timing
 
 HEHN = fp.vehicle("hehn2011")

@@ -24,10 +24,10 @@ from flypend.export.plan import SHORT, advance
 from flypend.export.source import ascii_of
 from flypend.export.write import fill
 from flypend.files.staging import write_texts
-from flypend.planning.coarse import coarsened
 from flypend.planning.dynamics import LEAST_ROOM, Stage, Units
 from flypend.planning.feedback import deviation, regulator
 from flypend.planning.inequalities import HIGH, LOW, SHARED, Barrier, Structure
+from flypend.planning.planner import coarsened
 from flypend.planning.problem import Request
 from flypend.planning.real_time import MOST_FAILED, SETTINGS, SUBSTEPS, SUNK
 from flypend.planning.result import Plan

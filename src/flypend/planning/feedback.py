@@ -19,12 +19,10 @@ from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.coordinates import ATTITUDE, MOTION, ROD, SWING, between, plane, turn_by
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import ATTITUDE, MOTION, ROD, SWING, Units, between, plane, turn_by
 from flypend.planning.inequalities import Structure
-from flypend.planning.programs import programs
 from flypend.planning.result import Plan
-from flypend.planning.solver import Scratch, one_lane
+from flypend.planning.solver import Scratch, one_lane, programs
 from flypend.plants import equations
 from flypend.plants.lag import step_timing
 from flypend.plants.plant import ROTORS

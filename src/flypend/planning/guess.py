@@ -27,8 +27,7 @@ from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.geometry import E3, cross, dot, norm, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.coordinates import cayley, turn_by
-from flypend.planning.dynamics import Stage, Units
+from flypend.planning.dynamics import Stage, Units, cayley, turn_by
 from flypend.planning.problem import Request
 from flypend.planning.riccati import solve
 from flypend.plants.lag import hold

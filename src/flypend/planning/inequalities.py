@@ -15,8 +15,7 @@ from flypend.geometry import E3, cross, dot
 from flypend.model import State, Vehicle, Wrench, rod_tension
 from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE
-from flypend.planning.coordinates import MOTION, POSITION, VELOCITY, retract
-from flypend.planning.dynamics import Scaled, Stage
+from flypend.planning.dynamics import MOTION, POSITION, VELOCITY, Scaled, Stage, retract
 from flypend.planning.riccati import Layout
 from flypend.planning.window import NUMBERS, passing
 

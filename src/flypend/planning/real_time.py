@@ -20,9 +20,8 @@ from flypend.planning.dynamics import Units
 from flypend.planning.feedback import AS_MODELLED, Feedback, Follower, of_deviation, regulator
 from flypend.planning.inequalities import SHARED
 from flypend.planning.problem import Request
-from flypend.planning.programs import programs
 from flypend.planning.result import Plan
-from flypend.planning.solver import Problem, Settings, Solver, one_lane
+from flypend.planning.solver import Problem, Settings, Solver, one_lane, programs
 from flypend.plants.lag import step_timing
 
 SETTINGS = Settings(barrier=3e-5, shrinks=(0.4, 0.375), most_damping=1.0, inside=0.005, margin=(0.02, 1e-4))

@@ -17,8 +17,7 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import TOLERANCE
 from flypend.planning.guess import arcs, lean_guess, leans, pumping, styles
 from flypend.planning.problem import STAGES_PER_UNIT, Request
-from flypend.planning.programs import Programs, programs
-from flypend.planning.solver import DEFAULT, Measures, Problem, Scratch, Settings, Solver, one_lane
+from flypend.planning.solver import DEFAULT, Measures, Problem, Programs, Scratch, Settings, Solver, one_lane, programs
 from flypend.plants.lag import step_timing
 
 # After so many iterations so many go on, those of least cost.

@@ -8,23 +8,74 @@ length α leaves 1 − α of them. docs/planning/method.md derives it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any, NamedTuple
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.compile.llvm.stagewise import lanes as some_lanes
 from flypend.model.state import SIZE
-from flypend.planning.coordinates import ATTITUDE, POSITION, ROD
-from flypend.planning.dynamics import LEAST_ROOM
-from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED
-from flypend.planning.programs import Programs
+from flypend.planning.dynamics import ATTITUDE, LEAST_ROOM, POSITION, ROD, Stage
+from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, Barrier, Structure
+from flypend.planning.riccati import Layout, backward, forward
 
 Lanes = NDArray[np.float64]
 # Of multipliers of the end: their step, as a share of weight and error; the error, in tolerances, beyond which the
 # weight grows first; and the offset below which it falls.
 ASCENT, FAR_OFF, PUSHED = 2.0, 1.5, 2.0
+
+
+@dataclass(frozen=True)
+class Programs:
+    """What the solver calls; functions of the same names in the modules named here say what goes in and out."""
+
+    layout: Layout
+    inequalities: int  # their number,
+    exact: int  # and that of the exact ones among them, which come first
+    end_size: int  # number of errors at the end
+    summary: int  # length of what `values` tells of a stage
+    linearised: Stagewise  # of `dynamics.Stage`, as is `rollout`; of the derivatives it writes F
+    rollout: Stagewise
+    backward: Stagewise  # of `riccati`, as is `forward`
+    forward: Stagewise
+    values: Stagewise  # of `inequalities.Barrier`, as are the others
+    terms: Stagewise
+    steps: Stagewise
+    end: Stagewise
+
+
+@lru_cache(maxsize=64)
+def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
+    """Return the compiled programs for machines with this many `rotors`, and `structure`, from the cache if possible.
+
+    They solve as many problems as `lanes`, a lane each, so that none is ever idle. Or else they solve a single one:
+    many stages at a time where no stage takes from another, and the recursion fills the lanes with rows of matrices.
+    """
+    stage = Stage(rotors)
+    barrier = Barrier(stage, structure)
+    gap, A, B = stage.derivatives()
+    curved = barrier.pattern
+    pattern = curved + ca.Sparsity.diag(curved.size1())
+    layout = Layout(A.sparsity(), B.sparsity(), pattern, 1 if lanes else WIDTH)
+    each, in_turn = (stagewise, stagewise) if lanes else (partial(stagewise, abreast=True), partial(stagewise, width=1))
+    return Programs(
+        layout=layout,
+        inequalities=barrier.inequalities,
+        exact=structure.exact(rotors),
+        end_size=barrier.end_size,
+        summary=3 + (structure.cost != ""),
+        linearised=each(stage.linearised(gap, layout.slopes(A, B)), shared=(3, 4)),
+        values=each(barrier.values(), shared=(2, 3, 4, 6)),
+        terms=each(barrier.terms(layout), shared=(2, 3, 4, 7)),
+        steps=each(barrier.steps(), shared=(2, 3, 4, 7, 10)),
+        backward=backward(layout),
+        forward=in_turn(forward(layout), shared=(1,)),
+        rollout=in_turn(stage.rollout(), shared=(5, 6, 7, 8, 9)),
+        end=in_turn(barrier.end(layout), shared=(1, 2, 3, 4)),
+    )
 
 
 @dataclass(frozen=True)

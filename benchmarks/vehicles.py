@@ -47,22 +47,25 @@ def main():
     """Print vehicle by vehicle, and the shares."""
     count, runs, seed = (int(value) for value in (sys.argv[1:] + ["200", "100", "2025"][len(sys.argv) - 1 :]))
     rng, law, flown, good = np.random.default_rng(seed), fp.laws.inverted(), 0, 0
+    print(
+        "| vehicle | M, kg | l, m | m/M | thrust/weight | agility | lag | succeed |\n|---|---|---|---|---|---|---|---|"
+    )
     for i in range(count):
         vehicle = random_vehicle(rng)
         power, agility, lag = numbers(vehicle)
-        told = f"{i:3d}  M {vehicle.M:5.3f} l {vehicle.l:4.2f} m/M {vehicle.m / vehicle.M:4.2f}"
-        told += f"  thrust/weight {power:4.2f}  agility {agility:7.2f}  lag {lag:4.2f}"
+        told = f"| {i} | {vehicle.M:.3f} | {vehicle.l:.2f} | {vehicle.m / vehicle.M:.2f} "
+        told += f"| {power:.2f} | {agility:.2f} | {lag:.2f} |"
         try:
             rate = fp.simulate_ensemble(vehicle, law, random_starts(runs, seed + 1), DURATION, plant="rotors").rate
         except fp.InputError as error:
-            print(f"{told}  refused: {error}", flush=True)
+            print(f"{told} refused: {error} |", flush=True)
             continue
         flown += 1
         good += rate >= WANTED
-        print(f"{told}  {rate:5.0%}", flush=True)
+        print(f"{told} {rate:.0%} |", flush=True)
     low, high = wilson(good, flown)
-    print(f"{flown} of {count} are flown, {good} of them from {WANTED:.0%} of {runs} starts: {good / flown:.0%}")
-    print(f"(95 %: {low:.0%} to {high:.0%})")
+    print(f"\n| | vehicles | flown | succeed from {WANTED:.0%} of the starts | 95 % interval |\n|---|---|---|---|---|")
+    print(f"| all | {count} | {flown} | {good} | {low:.0%} to {high:.0%} |")
 
 
 if __name__ == "__main__":

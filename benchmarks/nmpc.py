@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache
@@ -64,8 +65,9 @@ def blow(i: int) -> fp.Plant:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table: its plant by number of the run, the delay that is told, and the vehicle."""
+    """A row of the table: its title, its plant by number of the run, the delay that is told, and the vehicle."""
 
+    title: str
     plant: Callable[[int], fp.Plant]
     latency: float = 0.0
     vehicle: fp.Vehicle = VEHICLE
@@ -77,23 +79,39 @@ KEPT = {
     "ceiling": fp.Constraints(ceiling=0.6),
     "walls": fp.Constraints(box=((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf))),
 }
+WALLED = {"floor": "floor at −0.7 m", "ceiling": "ceiling at 0.6 m", "walls": "walls at ±0.6 m"}
 ROWS = {
-    "nominal": Row(lambda _: BY_MUJOCO),
-    "mismatch": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY), DELAY),
-    "untold": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=3 * DELAY)),
-    "mocap": Row(lambda i: BY_MUJOCO.replace(sensors="mocap", seed=i), 0.0),
-    "mocap-mismatch": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY, sensors="mocap", seed=i), DELAY),
-    "masses": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True))),
-    "unequal": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=False))),
-    "weak": Row(lambda _: BY_MUJOCO.replace(strength=0.85)),
-    "late": Row(lambda _: BY_MUJOCO.replace(delay=2 * DELAY)),
-    "gusts": Row(lambda i: BY_MUJOCO.replace(wind=GUSTS, seed=i)),
-    "mocap-masses": Row(lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True), sensors="mocap", seed=i)),
-    "blow": Row(blow),
-    "hub": Row(lambda _: BY_MUJOCO, 0.0, VEHICLE.replace(mount="hub")),
-    **{name: Row(lambda _: BY_MUJOCO, kept=kept) for name, kept in KEPT.items()},
-    **{f"{name}-masses": Row(lambda i: BY_MUJOCO.replace(mismatch=off(i)), kept=kept) for name, kept in KEPT.items()},
-}
+    "nominal": Row("nominal", lambda _: BY_MUJOCO),
+    "mismatch": Row(
+        "masses ±10 %, 10 ms of known delay", lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY), DELAY
+    ),
+    "untold": Row("masses ±10 %, 30 ms untold", lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=3 * DELAY)),
+    "mocap": Row("motion capture", lambda i: BY_MUJOCO.replace(sensors="mocap", seed=i)),
+    "mocap-mismatch": Row(
+        "masses ±10 %, 10 ms known, motion capture",
+        lambda i: BY_MUJOCO.replace(mismatch=off(i), delay=DELAY, sensors="mocap", seed=i), DELAY,
+    ),
+    "masses": Row("masses ±20 %", lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True))),
+    "unequal": Row(
+        "one mass +20 %, the other −20 %", lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=False))
+    ),
+    "weak": Row("thrust −15 %", lambda _: BY_MUJOCO.replace(strength=0.85)),
+    "late": Row("20 ms untold", lambda _: BY_MUJOCO.replace(delay=2 * DELAY)),
+    "gusts": Row("wind and gusts", lambda i: BY_MUJOCO.replace(wind=GUSTS, seed=i)),
+    "mocap-masses": Row(
+        "masses ±20 %, motion capture",
+        lambda i: BY_MUJOCO.replace(mismatch=masses(i, equal=True), sensors="mocap", seed=i),
+    ),
+    "blow": Row("a blow of 4 m/s in mid-throw", blow),
+    "hub": Row("hub", lambda _: BY_MUJOCO, vehicle=VEHICLE.replace(mount="hub")),
+    **{name: Row(WALLED[name], lambda _: BY_MUJOCO, kept=kept) for name, kept in KEPT.items()},
+    **{
+        f"{name}-masses": Row(
+            f"{WALLED[name]}, masses ±10 %", lambda i: BY_MUJOCO.replace(mismatch=off(i)), kept=kept
+        )
+        for name, kept in KEPT.items()
+    },
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -109,8 +127,6 @@ class Flight:
     best: float | None
     law_stood: bool
     law: float
-    clearance: float
-    changes: int
     spent: list[float]
     beyond: list[float]
 
@@ -122,27 +138,37 @@ def beyond(run: Any, row: Row) -> float:
     return float(np.max(np.maximum(row.kept.walls[0] - points, points - row.kept.walls[1])))
 
 
-def told(flights: Sequence[Flight]) -> str:
-    """Return the row of the table."""
-    stood, runs = sum(flight.stood for flight in flights), len(flights)
-    low, high = wilson(stood, runs)
-    ratio = [flight.excursion / flight.best for flight in flights if flight.best and flight.stood]
-    kept, spent = [f.clearance for f in flights], [took for f in flights for took in f.spent]
-    parts = [f"{stood} of {runs} ({low:.1%} to {high:.1%})"]
-    parts += [f"excursion {quantiles([flight.excursion for flight in flights], 0.5, 0.95)} m"]
-    parts += [f"ratio to the plan {quantiles(ratio, 0.5, 0.95)}"] if ratio else []
-    parts += [f"step p50, p99 {quantiles(1e3 * np.array(spent), 0.5, 0.99)} ms"]
-    parts += [f"clearance p5 {quantiles(kept, 0.05)} m"] if np.isfinite(kept[0]) else []
-    parts += [f"law {sum(f.law_stood for f in flights)} of {runs}, {quantiles([f.law for f in flights], 0.5, 0.95)} m"]
-    parts += [f"less than the law {sum(f.excursion < f.law for f in flights)} of {runs}"]
+FREE = "succeed | the law | excursion p50, p95, m | the law, m | less than the law | ratio p50, p95 | step p50, p99, ms"
+WITHIN = "succeed | keep it | within 1 cm | most beyond, m | unaware | law"
+
+
+def told(flights: Sequence[Flight]) -> list[str]:
+    """Return the cells of the table's row: those of `WITHIN` if the flights had a constraint, else of `FREE`."""
+    stood, runs = counted([flight.stood for flight in flights]), len(flights)
     if flights[0].beyond:
         by_nmpc, unaware, by_law = np.array([flight.beyond for flight in flights]).T
-        kept = int(np.sum(by_nmpc <= EXACT))
-        low, high = wilson(kept, runs)
-        parts += [f"keeps {kept} of {runs} ({low:.1%} to {high:.1%}), within a centimetre {np.sum(by_nmpc <= NEARLY)}"]
-        parts += [f"beyond p95, most {quantiles(by_nmpc, 0.95, 1.0)} m"]
-        parts += [f"unaware of it keeps {np.sum(unaware <= EXACT)}, law keeps {np.sum(by_law <= EXACT)}"]
-    return ", ".join([*parts, f"handed over more than twice: {sum(flight.changes > 2 for flight in flights)}"])
+        most = np.max(by_nmpc)
+        counts = [
+            str(np.sum(found <= bound)) for found, bound in ((by_nmpc, NEARLY), (unaware, EXACT), (by_law, EXACT))
+        ]
+        return [stood, counted(by_nmpc <= EXACT), counts[0], f"{most:.3g}" if most > EXACT else "none", *counts[1:]]
+    ratio = [flight.excursion / flight.best for flight in flights if flight.best and flight.stood]
+    spent = 1e3 * np.array([took for flight in flights for took in flight.spent])
+    return [
+        stood,
+        counted([flight.law_stood for flight in flights]),
+        quantiles([flight.excursion for flight in flights], 0.5, 0.95),
+        quantiles([flight.law for flight in flights], 0.5, 0.95),
+        f"{sum(flight.excursion < flight.law for flight in flights)} of {runs}",
+        quantiles(ratio, 0.5, 0.95) if ratio else "—",
+        quantiles(spent, 0.5, 0.99),
+    ]
+
+
+def counted(good: Any) -> str:
+    """Format how many are good, with the Wilson interval of 95 %."""
+    low, high = wilson(int(np.sum(good)), len(good))
+    return f"{np.sum(good)} of {len(good)} ({low:.1%} to {high:.1%})".replace("%", " %")
 
 
 def stands(run: Any) -> bool:
@@ -181,12 +207,11 @@ def flown(row: Row, start: fp.State, i: int) -> Flight | None:
         stood = [stands(flight) for flight in (run, by_law)]
     if not stood[0] or len(pilot.changes) > 2:
         changes = "; ".join(f"{t:.2f} s {mode}, {why}" for t, mode, why in pilot.changes)
-        print(f"  run {i}: {result.cause or 'stands'}, {changes}", flush=True)
-    excursion, changed = best.excursion if best else None, len(pilot.changes)
-    kept = result.clearance, changed, pilot.spent
+        print(f"  run {i}: {result.cause or 'stands'}, {changes}", file=sys.stderr, flush=True)
+    excursion = best.excursion if best else None
     runs = [run, fly(replace(row, kept=fp.Constraints()), start, i)[0], by_law] if row.kept.given else []
     off = [beyond(flight, row) for flight in runs]
-    return Flight(i, stood[0], result.excursion, excursion, stood[1], law.excursion, *kept, off)
+    return Flight(i, stood[0], result.excursion, excursion, stood[1], law.excursion, pilot.spent, off)
 
 
 def flights_of(row: Row, starts: fp.State, kept: Path | None, piece: int) -> list[Flight]:
@@ -214,14 +239,17 @@ def main() -> None:
     asked = parser.parse_args()
     if asked.keep:
         asked.keep.mkdir(parents=True, exist_ok=True)
-    for name in asked.row or ROWS:
+    names, columns = asked.row or list(ROWS), ""
+    for name in names:
         row = ROWS[name]
+        if columns != (columns := WITHIN if row.kept.given else FREE):
+            print(f"\n| | {columns} |\n|{'---|' * (columns.count('|') + 2)}")
         if name == "hub":
             starts = task_starts(row.vehicle, asked.runs, asked.seed)["random"]
         else:
             starts = fp.random_starts(asked.runs, asked.seed)
         kept = asked.keep and asked.keep / f"{name}-{asked.seed}-{asked.runs}.jsonl"
-        print(f"{name}: {told(flights_of(row, starts, kept, asked.piece))}", flush=True)
+        print(f"| {row.title} | {' | '.join(told(flights_of(row, starts, kept, asked.piece)))} |", flush=True)
 
 
 if __name__ == "__main__":

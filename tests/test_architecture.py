@@ -412,6 +412,20 @@ def test_every_public_argument_is_documented(name):
     assert not [line for public, thing in found for line in _complaints(f"{name}.{public}", thing, thing.__module__)]
 
 
+def _silent(source, many=4):
+    """Names of functions with `many` parameters or more and no docstring; a class says what `__init__` takes."""
+    for function in ast.walk(ast.parse(source)):
+        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef) and function.name != "__init__":
+            taken = [one.arg for one in (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs)]
+            if len(taken) - (taken[:1] in (["self"], ["cls"])) >= many and not ast.get_docstring(function):
+                yield function.name
+
+
+def test_a_function_of_four_arguments_says_what_it_does():
+    assert list(_silent("def f(a, b, *, c, d): pass\ndef g(a, b, c, d): 'says'\ndef h(self, b, c, d): pass")) == ["f"]
+    assert not [f"{path.name}: {name}" for path in SOURCE.rglob("*.py") for name in _silent(path.read_text("utf-8"))]
+
+
 def test_the_walk_reaches_what_it_should():
     assert {"flypend", "flypend.geometry", "flypend.model", "flypend.laws"} <= set(_module_names())
     names = {name for name, _ in _public(flypend)}

@@ -64,6 +64,7 @@ def theorem(
 
 
 def _basin(out: Path, runs: int, seed: int, vehicle: Vehicle, lag: bool, starts: str) -> None:
+    """Measure the basin of the certified set, save it in `out` and print it."""
     from flypend.files.staging import staging
     from flypend.studies.basin import measure_basin
 

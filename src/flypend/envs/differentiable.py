@@ -305,6 +305,7 @@ def _torch_step() -> Any:
     class Step(torch.autograd.Function):  # type: ignore[misc]
         @staticmethod
         def forward(ctx: Any, worlds: DifferentiableWorlds, memory: Any, actions: Any) -> Any:
+            """Step the worlds; tensors in, tensors out."""
             ctx.worlds = worlds
             ctx.save_for_backward(memory, actions)
             stepped = worlds.step(memory.detach().numpy(), actions.detach().numpy())

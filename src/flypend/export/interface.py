@@ -136,6 +136,7 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
 
 @lru_cache(maxsize=8)  # each precision takes the same
 def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | None) -> Interface:
+    """Build what `interface` returns for a law that is bound."""
     loop = Loop(vehicle, law, Sampled(rate=rate))
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
     params = ca.SX.sym("params", record.length)

@@ -266,6 +266,7 @@ def library(
 
 @lru_cache(maxsize=16)
 def _library(law: BoundLaw, vehicle: Vehicle, precision: Precision, rate: float, sensors: Sensors | None) -> Library:
+    """Compile what `library` returns for a law that is bound."""
     return Library(law, vehicle, precision, rate, sensors)
 
 

@@ -157,6 +157,7 @@ def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any
         return ", ".join(str(int(value)) for value in values)
 
     def calling(name: str, inputs: Sequence[str], outputs: Sequence[str], memory: str = "n->scratch") -> str:
+        """Return the line of C that calls the program `name`."""
         return call(everything[name], inputs, outputs, memory)
 
     F, Q = layout.F, layout.Q

@@ -127,6 +127,7 @@ def board_step(loop: Loop, law: BoundLaw | None = None) -> ca.Function:
     believed = Believed.numbers(loop.vehicle)
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
+        """Return the wrench of the law from its predicted state and the reference of now."""
         reference = reference_numbers(vehicle, shift_path(path, t), forces[3:])  # the measurement is at t = 0
         return wrench_from_stream(law or loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 

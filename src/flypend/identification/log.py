@@ -200,6 +200,7 @@ def _check_times(t: Any, field: str) -> None:
 
 
 def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool) -> Log:
+    """Return the log of `columns`, its times and cells checked. Raises InputError."""
     t = columns["t"]
     _check_times(t, field)
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)

@@ -67,6 +67,7 @@ def _text(content: bytes | bytearray, at: int) -> tuple[str, int]:
 
 
 def _sampled(content: bytes | bytearray, kinds: dict[int, Any], at: int, field: str) -> dict[str, Any]:
+    """Return the columns of the sampled events in `content`, from the byte `at` on. Raises InputError."""
     rows: list[tuple[float, ...]] = []
     names: list[str] = []
     while at < len(content) - CHECKSUM:

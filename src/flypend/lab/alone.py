@@ -75,6 +75,7 @@ def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str,
 
 
 def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[str, Any]:
+    """Return the setting `first` with another vehicle, law and plant, by name."""
     machine = {"base": vehicle, "mount": "gimbal"}
     return {**first, "vehicle": machine, "law": {"name": law, "gains": {}}, "plant": {"base": plant}}
 

@@ -164,6 +164,7 @@ def _tilt(degrees: float) -> dict[str, Any]:
 def _step(
     name: str, title: str, plot: str, words: str, drag: str, setting: dict[str, Any], phase: str | None = None
 ) -> dict[str, Any]:
+    """Return one chapter of the tour as the page reads it."""
     return {
         "name": name, "title": title, "plot": plot, "words": words, "drag": drag, "setting": setting, "phase": phase,
     }  # fmt: skip

@@ -142,6 +142,7 @@ def _after(
 
 
 def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> Part:
+    """Fly one part of a flight by the kernel of `machine`, or step by step."""
     if isinstance(machine, Stepped):
         return _step_part(flight.replace(law=machine.law), rotors)
     if isinstance(machine.kernel, SampledKernel):
@@ -151,6 +152,7 @@ def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> 
 
 
 def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight) -> Part:
+    """Fly one part of a flight in the ideal plant."""
     solution = Solution(kernel, flight, gains)
     outcome, t = solution.outcome, flight.grid
     if outcome.reason == REASONS[runge_kutta.TOO_MANY]:
@@ -161,6 +163,7 @@ def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight)
 
 
 def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) -> Part:
+    """Return the part with states `packed` (k, 24) at `t` (k,), s, and the wrenches that the law gave there."""
     columns = np.broadcast_to(gains[:, None], (len(gains), len(t)))
     wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
     rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
@@ -188,6 +191,7 @@ def _move(part: Part, begin: float, *, first: bool) -> Part:
 
 
 def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: list[Part]) -> Trajectory:
+    """Return the flight that the `parts` make in a row."""
     t, packed, rotors, wrench = (
         np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
     )

@@ -233,6 +233,7 @@ def _listen(host: str, port: int) -> socket.socket:
 async def _serve(
     listening: socket.socket, laboratory: Laboratory, browser: bool, announce: Callable[[str], Any]
 ) -> None:
+    """Serve the `laboratory` until it is stopped, and `announce` its address."""
     listening.setblocking(False)
     server = Server(
         laboratory.application(), max_body_size=LARGEST_MESSAGE, idle_connection_timeout=SILENT, body_timeout=SILENT

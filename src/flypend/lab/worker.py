@@ -188,6 +188,8 @@ def _answer_all(requests: SimpleQueue[dict[str, Any]], answering: Callable[[dict
 
 
 def _answer(message: dict[str, Any], channel: socket.socket, word: Word, own: OwnLaws, seconds: float) -> None:
+    """Send the replies to a `message` until a newer one has come, each within `seconds` of processor time."""
+
     def tell() -> None:
         channel.sendall(encode({"kind": "compiling", "number": message.get("number")}))
 

@@ -221,6 +221,7 @@ def _largest(found: dict[str, Any], ranges: list[tuple[float, float]]) -> float:
 
 
 def _used(least: float, most: float, low: float, high: float) -> float:
+    """Return which share of the limits from `low` to `high` the forces from `least` to `most` use, N."""
     middle, half = (least + most) / 2, (most - least) / 2
     return half / min(middle - low, high - middle)
 

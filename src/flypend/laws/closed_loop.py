@@ -78,6 +78,7 @@ def symbolic_loop(
 
 @lru_cache(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
 def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool) -> SymbolicLoop:
+    """The equations of motion under `bound`, with its signals and the rates of its Lyapunov functions."""
     t, s, p, control = _output(vehicle, bound, parameters, lag)
     state, acting, extra = State.symbolic(s), control.wrench, {}
     if lag:

@@ -125,4 +125,5 @@ def lead_wrench(wanted: Wrench, acting: Wrench, lead: Scalar) -> Wrench:
 def _leading(
     t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *forces: tuple[Vector, Vector], acting: Wrench
 ) -> Wrench:
+    """The command of the law `k.law`, led past the wrench that is `acting`."""
     return lead_wrench(k.law.evaluate(t, state, vehicle, *forces).wrench, acting, k.lead)

@@ -72,6 +72,7 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
     def control(
         t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector]
     ) -> Control:
+        """The learned law about the reference, which it is shown at most `k.reach` rod lengths away."""
         return learned_control(t, state, vehicle, k.network, forces, followed, k.reach)
 
     return Law(

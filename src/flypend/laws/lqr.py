@@ -108,6 +108,7 @@ def by_matrix(K: Numbers) -> Law:
     followed = hover()
 
     def control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
+        """The regulator with the matrix that the gains K_i_j make."""
         matrix = ca.SX.zeros(4, len(COORDINATES))
         for name, i, j in ENTRIES:
             matrix[i, j] = getattr(k, name)

@@ -119,6 +119,7 @@ class _Control:
     gains: tuple[str, ...]
 
     def __call__(self, t: Any, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Any:
+        """Return what the function answers, its gains by name."""
         return self.function(t, state, vehicle, **{name: getattr(k, name) for name in self.gains})
 
 

@@ -111,6 +111,7 @@ def supervised(
 
 
 def _both(first: Law, second: Law, vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Bind both laws to `vehicle`; the second holds one place. Raises InputError."""
     assert second.reference is not None
     if not stands(second.reference):
         raise InputError("law.reference", "one at rest", "one that moves")

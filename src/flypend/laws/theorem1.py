@@ -122,6 +122,7 @@ def printed(**gains: float | str) -> Law:
 
 
 def _as_printed(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
+    """Theorem 1 with the signs of the paper."""
     return theorem_1(t, state, vehicle, k, Version(+1, 0.0 if k.beta == "minimum-norm" else None))
 
 
@@ -160,6 +161,7 @@ def corrected(**gains: float | str) -> Law:
 
 
 def _as_corrected(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
+    """Theorem 1 with its damping sign corrected, and beta only if the gains ask for it."""
     beta_floor = k.beta_floor if k.beta == "regularized" else None
     return theorem_1(t, state, vehicle, k, Version(-1, beta_floor, k.yaw_damping))
 

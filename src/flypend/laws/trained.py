@@ -76,6 +76,7 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
     followed = reference or hover()
 
     def control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
+        """The network on the state relative to the reference, as its environment showed it."""
         x_ref = followed(t)
         x, x_dot = state.x - x_ref, state.x_dot - ca.densify(derivatives(x_ref, t, 1)[0])
         seen = observe_state(State(**(vars(state) | {"x": x, "x_dot": x_dot})), ATTITUDES[known.inputs])

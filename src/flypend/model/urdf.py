@@ -63,6 +63,7 @@ def add_rod(robot: Element, vehicle: Any) -> Element:
 
 
 def _link(robot: Element, name: str, mass: float, center: Any, inertia: Any) -> Element:
+    """Add a link to `robot` with its `mass` (kg), `center` (3,) and `inertia` (3, 3) about it, link frame."""
     link = SubElement(robot, "link", name=name)
     inertial = SubElement(link, "inertial")
     SubElement(inertial, "origin", xyz=numbers(center))

@@ -203,6 +203,7 @@ def stepping(vehicle: Vehicle) -> Any:
     def stepped(
         state: Array, rotors: Array, command: Array, duration: float, forces: Array = STILL, scales: Array = AS_MODELLED
     ) -> Array:
+        """Return state and rotor forces in one array, after a `duration`, s, of the `command`, N."""
         return np.append(*step(state, rotors, command, forces, step_timing(lag, round(duration, 9)), scales))
 
     return stepped

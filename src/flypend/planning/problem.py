@@ -184,6 +184,7 @@ def end_of(path: Any, duration: Any, target: Any) -> Any:
 
 
 def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> None:
+    """Raise InputError unless pivot `x` and rod `y` (both (..., 3)) are within `walls` (2, 3), m."""
     points = np.stack([x, x + vehicle.reach * y])
     if np.any(points <= walls[0]) or np.any(points >= walls[1]):
         field = "floor, ceiling" if np.all(np.isinf(walls[:, :2])) else "box"
@@ -244,6 +245,7 @@ def _lean(lean: float, start: State, end: State) -> float:
 
 
 def _forces(rotors: Any, low: float, high: float, n: int) -> Any:
+    """Return the `n` rotor forces at the start, N, by default the least. Raises InputError."""
     forces = np.full(n, low) if rotors is None else errors.array("rotors", rotors, (n,))
     if np.any(forces < low) or np.any(forces > high):
         raise InputError("rotors", f"forces from {low:g} to {high:g} N", forces.tolist())

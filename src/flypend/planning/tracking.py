@@ -92,6 +92,7 @@ class Boards(ABC):
         return found
 
     def _or_law(self, t: float, state: Array, rotors: Array, outside: Array) -> Array:
+        """Return the rotor forces of the plan, N, or those of the law where there is no plan."""
         if self._given is not None:
             return self._given
         shown = state.copy()

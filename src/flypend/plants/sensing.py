@@ -264,6 +264,7 @@ def _between(before: State, now: State, since: Scalar, period: float) -> State:
     share = 1 - since / period
 
     def cubic(a: Vector, a_dot: Vector, b: Vector, b_dot: Vector) -> Vector:
+        """Return the cubic in time with these ends and rates there."""
         rise, start, end = b - a, period * a_dot, period * b_dot
         return a + share * (start + share * (3 * rise - 2 * start - end + share * (start + end - 2 * rise)))
 
@@ -297,22 +298,27 @@ def mean_force(v: Vector, v_after: Vector, R: Matrix, R_after: Matrix, g: Scalar
 
 
 def _position(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    """What motion capture sees of the marker's place, m."""
     return _quantise(wrong.position(moment.state.x, moment.state.R) + sensor.noise * draw, sensor)
 
 
 def _attitude(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Numbers:
+    """What motion capture sees of R (9,), row by row."""
     return ca.vec((wrong.attitude(moment.state.R) @ rotation_by(sensor.noise * draw)).T)
 
 
 def _rod(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    """What motion capture sees of the rod's direction, a unit vector."""
     return _point(wrong.rod(moment.state.y), sensor, draw)
 
 
 def _gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    """What the gyroscope reads, rad/s, body frame."""
     return _quantise(wrong.gyro(moment.state.omega) + sensor.noise * draw, sensor)
 
 
 def _accelerometer(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    """What the accelerometer reads, m/s², body frame."""
     return _quantise(wrong.accelerometer(moment.force) + sensor.noise * draw, sensor)
 
 
@@ -328,6 +334,7 @@ def _joints(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Ve
 
 
 def _rod_gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+    """What a gyroscope on the rod reads, rad/s, in the vehicle's body frame."""
     del wrong
     return _quantise(moment.state.R.T @ cross(moment.state.y, moment.state.y_dot) + sensor.noise * draw, sensor)
 

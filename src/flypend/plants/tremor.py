@@ -95,6 +95,7 @@ class _Steering:
 
 @lru_cache(maxsize=64)
 def _share(steering: _Steering, sensors: Sensors, period: float, delay: float) -> float:
+    """Return the least share of calm with which `steering` trembles by less than `CALM_TREMOR`."""
     law = steering.law
     vehicle = law.vehicle
     light = vehicle.replace(**{name: share * getattr(vehicle, name) for name, share in LIGHT.items()})
@@ -150,6 +151,7 @@ def tremor(law: BoundLaw, sensors: Sensors, period: float, delay: float = 0.0, f
 
 
 def _tremor(law: BoundLaw, sensors: Sensors, period: float, delay: float, flown: Vehicle) -> Tremor:
+    """Return the standard deviations of place and thrust axis in hover, by a Lyapunov equation."""
     n = len(KEPT)
     loop, driven = _loop(law, flown, period, delay)
     if np.max(np.abs(np.linalg.eigvals(loop))) >= 1:

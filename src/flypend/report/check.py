@@ -123,6 +123,7 @@ def _markdown(
     settings: Mapping[str, Any],
     advice: Advice | None,
 ) -> str:
+    """Return the report as Markdown."""
     set_to = "; ".join(f"{name}: {value}" for name, value in settings.items())
     parts = ["# Check", f"{set_to}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
     if cells := task_cells(checks):

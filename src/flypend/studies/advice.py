@@ -191,6 +191,7 @@ def changed(vehicle: Vehicle, factors: Mapping[str, float]) -> Vehicle:
 
 
 def _flown(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed: int) -> Change:
+    """Fly the inverted law on the `vehicle` changed by `factors`, from random starts."""
     new = changed(vehicle, factors)
     told = ", ".join(f"{CHANGES[name][1]} (× {factor:g}, {_number(new, name)})" for name, factor in factors.items())
     if feasibility(plant.true_vehicle(new), plant.delay).impossible:

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import sync_playwright
 
+from tests.machine_code import keep_what_was_used_last, use_machine_code_by_text
+
 # Drawn in software, and nothing that the browser itself would send out.
 OPTIONS = [
     "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
@@ -20,11 +22,15 @@ OPTIONS = [
 
 def pytest_configure(config):
     """Keep the machine code of tests, and of what they start, away from the user's; keep bytecode."""
-    os.environ["FLYPEND_CACHE"] = str(config.rootpath / ".pytest_cache" / "machine-code")
+    kept = config.rootpath / ".pytest_cache"
+    os.environ["FLYPEND_CACHE"] = str(kept / "machine-code")
     os.environ.pop("FLYPEND_CACHE_LIMIT", None)
     # Without bytecode each of the many processes that tests start compiles all of its imports again.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+    use_machine_code_by_text(kept / "machine-code-by-text")
+    if not hasattr(config, "workerinput"):
+        keep_what_was_used_last(kept / "machine-code-by-text")
 
 
 def pytest_collection_modifyitems(items):

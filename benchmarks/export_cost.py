@@ -192,8 +192,9 @@ def cortex_m4(folder, ends, made, bytes_):
     needed = set().union(*(reached(fast, name) for name in ends))
     deepest = max(depth(fast, stack, name) for name in ends)
     # A layer that was inlined has no function of its own; its table is needed all the same.
-    plain, tables = compiled_for_m4(folder, "plain", "-fno-inline"), weights(made)
-    held = set().union(*(reached(plain, name) for name in ends)) & tables.keys()
+    tables = weights(made)
+    plain = compiled_for_m4(folder, "plain", "-fno-inline") if tables else {}
+    held = set().union(*(reached(plain, name) for name in ends if tables)) & tables.keys()
     return sum(sizes[name] for name in needed) + sum(bytes_ * tables[name] for name in held), deepest
 
 

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import sync_playwright
 
+from tests.machine_code import keep_what_was_used_last, use_machine_code_by_text
+
 # Drawn in software, and nothing that the browser itself would send out.
 OPTIONS = [
     "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
@@ -20,11 +22,15 @@ OPTIONS = [
 
 def pytest_configure(config):
     """Keep the machine code of tests, and of what they start, away from the user's; keep bytecode."""
-    os.environ["FLYPEND_CACHE"] = str(config.rootpath / ".pytest_cache" / "machine-code")
+    kept = config.rootpath / ".pytest_cache"
+    os.environ["FLYPEND_CACHE"] = str(kept / "machine-code")
     os.environ.pop("FLYPEND_CACHE_LIMIT", None)
     # Without bytecode each of the many processes that tests start compiles all of its imports again.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+    use_machine_code_by_text(kept / "machine-code-by-text")
+    if not hasattr(config, "workerinput"):
+        keep_what_was_used_last(kept / "machine-code-by-text")
 
 
 def pytest_collection_modifyitems(items):
@@ -53,34 +59,79 @@ def chromium():
         browser.close()
 
 
-@pytest.fixture
-def offline(chromium):
-    """Return a function that opens a file in a context of its own, without a network; arguments are the context's.
+KEPT = 4  # pages, each with a process of its own
+LEFT = "() => location.protocol === 'about:' ? [] : [...Object.keys(localStorage), ...Object.keys(sessionStorage)]"
 
-    Unless `drawn`, it leaves out draw calls: the scene takes a processor more time than all else that a page does.
-    A page of a server is opened with offline=False, and may ask that server. At the end no page has asked for anything
-    but itself and the files `beside` it, and none has complained.
+
+@pytest.fixture(scope="module")
+def pages(chromium):
+    """Return a function that lends a blank page of a context with some settings, and one that takes it back.
+
+    To begin a context, with its process, takes a processor thrice as long as to open a page in one that was used.
     """
     from benchmarks.frames import UNDRAWN  # imported here: most tests open no page
 
-    contexts, asked, complaints, known = [], [], [], ["data:,", "blob:", "about:srcdoc"]
+    kept = []
 
-    def open_(address, *, drawn=False, beside=(), **setting):
-        context = chromium.new_context(**{"offline": True} | setting)
+    def lend(drawn, setting):
+        key = drawn, repr(sorted(setting.items()))
+        found = next((i for i, (other, _) in enumerate(kept) if other == key), None)
+        if found is not None:
+            return kept.pop(found)
+        context = chromium.new_context(**setting)
         if not drawn:
             context.add_init_script(UNDRAWN)
-        contexts.append(context)
+        return key, context.new_page()
+
+    def take_back(key, page):
+        if page.is_closed():
+            return
+        for other in page.context.pages:
+            if other is not page:
+                other.close()
+        page.goto("about:blank")
+        kept.append((key, page))
+        if len(kept) > KEPT:
+            kept.pop(0)[1].context.close()
+
+    return lend, take_back
+
+
+@pytest.fixture
+def offline(pages):
+    """Return a function that opens a file in a context that no other page has, without a network; takes its arguments.
+
+    Unless `drawn`, it leaves out draw calls: the scene takes a processor more time than all else that a page does.
+    A page of a server is opened with offline=False, and may ask that server. At the end no page has asked for anything
+    but itself and the files `beside` it, none has complained, and none has left anything to the next in its context.
+    """
+    lend, take_back = pages
+    lent, asked, complaints, known = [], [], [], ["data:,", "blob:", "about:srcdoc"]
+    heard = {
+        "request": lambda request: asked.append(request.url),
+        "console": lambda said: complaints.append(said.text) if said.type == "error" else None,
+        "pageerror": lambda error: complaints.append(str(error)),
+    }
+
+    def open_(address, *, drawn=False, beside=(), **setting):
+        key, page = lend(drawn, {"offline": True} | setting)
+        lent.append((key, page))
         known.extend((address.partition("#")[0], *beside))
-        page = context.new_page()
-        page.on("request", lambda request: asked.append(request.url))
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
+        for event, listener in heard.items():
+            page.on(event, listener)
+        if "viewport" in setting and page.viewport_size != setting["viewport"]:
+            page.set_viewport_size(setting["viewport"])
         page.goto(address)
         return page
 
     yield open_
-    for context in contexts:
-        context.close()
+    left = []
+    for key, page in lent:
+        left += [] if page.is_closed() else page.evaluate(LEFT)
+        take_back(key, page)
+        for event, listener in heard.items():
+            page.remove_listener(event, listener)
+    assert left == []
     assert complaints == []
     assert [url for url in asked if not url.startswith(tuple(known))] == []
 

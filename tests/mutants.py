@@ -377,7 +377,7 @@ class Watch:
         self.rest = 0
 
     def pytest_configure(self, config: pytest.Config) -> None:
-        use_machine_code_by_text()
+        keep_machine_code()
         hypothesis.settings.register_profile("mutants", phases=(Phase.explicit, Phase.generate))  # none is shrunk
         hypothesis.settings.load_profile("mutants")
 
@@ -415,27 +415,14 @@ def processor() -> float:
     return sum(os.times()[:4])
 
 
-def use_machine_code_by_text() -> None:
-    """Let machine code be found by the LLVM text that it is made of: most mutations leave most of it as it is."""
+def keep_machine_code() -> None:
+    """Let machine code be found by its text: most mutations leave most of it as it is."""
     from flypend.compile.llvm import jit
+    from tests.machine_code import use_machine_code_by_text
 
     os.environ["FLYPEND_CACHE"] = str(WORK / "machine-code")
-    folder = Path(jit.__file__).parent
-    makers = b"".join((folder / f"{name}.py").read_bytes() for name in ("jit", "loops", "target"))
-
-    def build_object(key: str, module: object, target: object) -> bytes:
-        made = module()
-        loop = getattr(made, "bitcode", None)
-        linked = (folder.parent / "loops" / loop).read_bytes() if loop else b""
-        text = f"{made}{sorted(getattr(made, 'inner', ()))}{target.name}{target.jit}"
-        path = WORK / "machine-code" / hashlib.sha256(text.encode() + linked + makers).hexdigest()
-        if not path.exists():
-            part = path.with_suffix(f".{os.getpid()}")
-            part.write_bytes(jit.compile_module(made, target))
-            part.rename(path)
-        return path.read_bytes()
-
-    jit.build_object = build_object
+    use_machine_code_by_text(WORK / "machine-code-by-text")
+    jit.may_cache = lambda: False  # flypend's own cache would hold every kernel once for each mutation
 
 
 def watched(one: Mutation | None, tests: Tests, limit: float, seconds: dict[str, float]) -> dict:

@@ -152,7 +152,7 @@ WRITERS = (
     "__init__.py", "compile/tableaus.toml", "compile/methods.py", "compile/problem.py", "compile/routine.py",
     "compile/llvm/emit.py", "compile/loops/runge_kutta_8x64_p64.bc", "flight/kernels/ideal.py",
     "flight/kernels/pieces.py", "envs/kernel.py",
-    "planning/programs.py", "plants/equations.py", "learning/world.py", "model/state.py",
+    "planning/solver.py", "plants/equations.py", "learning/world.py", "model/state.py",
 )  # fmt: skip
 
 
@@ -192,7 +192,7 @@ def test_a_process_whose_source_changes_leaves_the_cache_alone(copy, cache):
     result("key", 2.0, calls)
     result("key", 2.0, calls)
     assert calls == [2.0]
-    changed(copy / "planning" / "programs.py")  # which this process may have imported, or may import now
+    changed(copy / "planning" / "solver.py")  # which this process may have imported, or may import now
     result("key", 2.0, calls)
     result("another key", 2.0, calls)
     assert calls == [2.0, 2.0, 2.0]

@@ -36,6 +36,15 @@ CASES = {
     "crazyflie, every 37 ms": {**inverted(3.0, vehicle="crazyflie"), "period": 0.037},
     "every millisecond": {**inverted(2.5), "period": 1e-3},
     "at few times": {**inverted(4.0), "grid": np.array([0.3, 0.31, 1.0, 2.9, 3.3, 3.9])},
+    # The start is out, and the place farthest away: once it is judged, once not.
+    "at the start and the end": {**inverted(4.0), "grid": np.array([0.0, 3.9]), "away": 2.0},
+    "in the first step": {**inverted(4.0), "grid": np.array([1e-4, 1e-3, 3.9]), "away": 2.0},
+    "on the way alone": {
+        **inverted(4.0),
+        "criterion": Criterion(position=np.inf, rod=0.2, axis=0.2),
+        "grid": np.array([2.5]),
+        "away": 20.0,
+    },
     "corrected": {**CORRECTED, "criterion": WIDE},
     "corrected, anywhere": {**CORRECTED, "criterion": Criterion(target="e3", position=np.inf)},
     "printed": {**CORRECTED, "law": fp.laws.printed(), "duration": 1.5, "criterion": WIDE},
@@ -74,14 +83,14 @@ def at_every_time(flown, times, law, vehicle, criterion):
 
 def differences(case, method, runs, seed, precision="double"):
     """(runs, runs whose times differ, successes, largest relative error of the excursion)."""
-    case = {"criterion": Criterion(), "rtol": 1e-6, "period": 0.01, **case}
+    case = {"criterion": Criterion(), "rtol": 1e-6, "period": 0.01, "away": 0.0, **case}
     vehicle, duration, criterion = fp.vehicle(case["vehicle"]), case["duration"], case["criterion"]
     law, rng = case["law"].bind(vehicle), np.random.default_rng(seed)
     grid = case.get("grid", np.linspace(0, duration, round(duration / case["period"]) + 1))
     kernel = ideal_kernel(Loop(vehicle, law, Ideal()), criterion, method=method, precision=precision)
     differ = successes = worst = 0
     for first in range(0, runs, 250):
-        starts = fp.State.random(rng, min(250, runs - first)).packed()
+        starts = fp.State.random(rng, min(250, runs - first)).packed() + case["away"] * np.eye(24)[0]
         flown = kernel.fly(starts, duration, Tolerances(rtol=case["rtol"]), judge_at=grid, keep_at=grid)
         every, own = at_every_time(flown, grid, law, vehicle, criterion), flown.reductions
         differ += np.sum(np.any(own[:, :4] != every[:, :4], axis=1))
@@ -144,12 +153,15 @@ def test_the_table_is_never_ahead(times):
 
 @pytest.mark.parametrize("method", ["dp5", "dop853"])
 def test_forces_are_those_of_the_whole_flight(method):
-    """Against 20,000 samples: the mean square to the error of a step, the peak to what lies between two stages."""
-    vehicle, starts = fp.vehicle("nayak2018"), fp.State.random(np.random.default_rng(6), 2)
+    """Against 20,000 samples: the mean square to the error of a step, the peak to what lies between two stages.
+
+    More runs than lanes: the last one flies where another one flew.
+    """
+    vehicle, starts = fp.vehicle("nayak2018"), fp.State.random(np.random.default_rng(6), 40)
     options = {"plant": "ideal", "rtol": 1e-8, "method": method}
     many = fp.simulate_ensemble(vehicle, fp.laws.corrected(), starts, 6.5, workers=1, **options)
     times = np.linspace(0, 6.5, 20_001)
-    for i in range(len(starts)):
+    for i in (0, len(starts) - 1):
         run = fp.simulate(vehicle, fp.laws.corrected(), starts[i], 6.5, plant="ideal", rtol=1e-8, times=times)
         single = fp.metrics(run)
         assert many.effort[i] == pytest.approx(single.effort, rel=1e-6)
@@ -159,9 +171,19 @@ def test_forces_are_those_of_the_whole_flight(method):
 
 
 def test_a_run_that_ends_at_its_start_has_the_forces_of_the_start():
-    vehicle, law = fp.vehicle("hehn2011"), fp.laws.printed()
-    starts = fp.State(y=np.tile([0.0, 0.0, 1.0], (2, 1)))  # |v_e| = 0: singular at once
-    many = fp.simulate_ensemble(vehicle, law, starts, 1.0, plant="ideal", workers=1)
-    single = fp.metrics(fp.simulate(vehicle, law, starts[0], 1.0, plant="ideal"))
-    assert (many.cause[0], many.end[0], single.cause, single.end) == ("singular", 0.0, "singular", 0.0)
-    assert many.excursion[0] == single.excursion == 0.0
+    """Where the law is singular at once, |v_e| = 0, they are no numbers; a rod that touches at once has some."""
+    vehicle, touching = fp.vehicle("hehn2011"), fp.State(y=(0.0, 1.0, 0.0), y_dot=(0.0, 0.0, -30.0))
+    cases = {
+        "singular": (vehicle, fp.laws.printed(), fp.State(y=(0.0, 0.0, 1.0))),
+        "collided": (vehicle.replace(mount="hub"), fp.laws.inverted(), touching),
+    }
+    for cause, (machine, law, start) in cases.items():
+        starts = fp.State.from_packed(np.tile(start.packed(), (2, 1)))
+        many = fp.simulate_ensemble(machine, law, starts, 1.0, plant="ideal", workers=1)
+        single = fp.metrics(fp.simulate(machine, law, start, 1.0, plant="ideal"))
+        assert (many.cause[0], many.end[0], single.cause, single.end) == (cause, 0.0, cause, 0.0)
+        assert many.excursion[0] == single.excursion == 0.0
+        for name in ("effort", "peak_force"):
+            value = getattr(single, name)
+            assert np.isnan(value) == (cause == "singular")
+            assert getattr(many, name)[0] == pytest.approx(value, rel=1e-12, nan_ok=True), name

@@ -612,8 +612,7 @@ def test_controls_come_before_the_picture_for_those_who_go_by_keys(visit):
     assert page.evaluate("document.activeElement.closest('.bar') !== null")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("viewport", [WIDE, NARROW], ids=["wide", "narrow"])
+@pytest.mark.parametrize(("scheme", "viewport"), [("light", WIDE), ("dark", NARROW)], ids=["wide", "narrow"])
 def test_axe_finds_nothing(visit, axe, scheme, viewport):
     page = visit(color_scheme=scheme, viewport=viewport)
     assert axe(page) == []

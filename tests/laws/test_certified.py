@@ -20,7 +20,7 @@ from flypend.export.records import params_of, params_record
 from flypend.export.symbolic import SymbolicVehicle
 from flypend.geometry import E3, cross, dot, rotation_from_vector
 from flypend.laws import certificate, references, verify
-from flypend.laws.certified import _run, _state, chart_function, differs
+from flypend.laws.certified import _run, _state, chart_function, differs, statement
 from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.model import State, Wrench
 from flypend.model.mount import clearances
@@ -37,8 +37,9 @@ def found(name="hehn2011", lag=False, mount="gimbal"):
 @pytest.mark.parametrize(
     ("name", "lag", "least"),
     [
-        ("hehn2011", False, 5e-2), ("crazyflie", False, 4.9e-2), ("hehn2011", True, 4e-2),
+        ("hehn2011", False, 5e-2), ("crazyflie", False, 4.9e-2),
         # Up to two minutes each.
+        pytest.param("hehn2011", True, 4e-2, marks=pytest.mark.slow),
         pytest.param("nayak2018", False, 1.1e-2, marks=pytest.mark.slow),
         pytest.param("crazyflie", True, 3e-2, marks=pytest.mark.slow),
         pytest.param("nayak2018", True, 1e-2, marks=pytest.mark.slow),
@@ -51,6 +52,15 @@ def test_the_set_is_as_large_as_promised_and_its_certificate_is_proved(name, lag
     assert differs(certified.certificate, certified.law) == ""
     assert certificate.check(certified.certificate | {"c": 1.1 * certified.c})  # c is the largest within 5 %
     assert certificate.check(certified.certificate | {"w": 10.0})
+
+
+def test_through_a_lag_as_large_a_set_as_promised_is_proved():
+    """Not the largest one, which takes half a minute to find: see above."""
+    law = fp.laws.almost_global_lag().bind(HEHN)
+    made = statement(law) | {"c": 4e-2}
+    assert certificate.check(made) == ""
+    assert differs(made, law) == ""
+    assert certificate.check(made | {"w": 10.0})
 
 
 @pytest.mark.parametrize("lag", [False, True])

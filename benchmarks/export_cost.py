@@ -93,7 +93,7 @@ def main() -> None:
     given = parser.parse_args()
     vehicle = fp.vehicle(given.vehicle)
     names = ("ops", "instr", "us", "text", "stack", "cycles", "kHz", "M4%")
-    print(f"{'law':13} {'part':6} {'reals':7}", *(f"{name:>7}" for name in names))
+    print(f"| law, part, precision | {' | '.join(names)} |\n|{'---|' * (len(names) + 1)}")
     for name in given.law or LAWS:
         for precision in given.precision or ("double", "float"):
             for line in rows(name, LAWS[name]().bind(vehicle), vehicle, precision):
@@ -101,7 +101,7 @@ def main() -> None:
 
 
 def rows(name, law, vehicle, precision):
-    """The lines of `law` in `precision`: the board, and the bare law."""
+    """The rows of `law` in `precision`: the board, and the bare law."""
     made = interface(law, vehicle)
     own = {key: sum(program.counts().values()) for key, program in made.all_programs().items()}
     checks = own["rod"] + own["attitude"]
@@ -117,7 +117,7 @@ def rows(name, law, vehicle, precision):
             else:
                 cycles = executed(folder, caller)
                 cells += [cycles, f"{CLOCK / cycles / 1e3:.1f}", f"{100 * RATE * cycles / CLOCK:.2f}"]
-            yield " ".join([f"{name:13} {part:6} {precision:7}", *(f"{cell:>7}" for cell in cells)])
+            yield f"| {name}, {part}, {precision} | {' | '.join(map(str, cells))} |"
 
 
 def run(*command, folder):

@@ -234,15 +234,14 @@ def test_a_page_is_for_everyone_and_fits(site, looking, axe, name):
 
 
 def test_prose_and_formulas_fit_a_phone(site, chromium):
-    """Without scripts, which lay out no prose, but fly the live figures of a page."""
-    context = chromium.new_context(offline=True, viewport={"width": 390, "height": 844}, java_script_enabled=False)
+    context = chromium.new_context(offline=True, viewport={"width": 390, "height": 844})
     page = context.new_page()
     pages = [
         path.relative_to(ROOT / "docs").with_suffix(".html").as_posix() for path in PAGES if "_build" not in path.parts
     ]
     faults = {}
     for name in pages:
-        page.goto((site / name).as_uri())
+        look(page, site, name)
         faults[name] = page.evaluate(SIDEWAYS)
     context.close()
     assert {name: found for name, found in faults.items() if found} == {}

@@ -9,8 +9,16 @@ import numpy as np
 
 from flypend.flight.live_engine import engine_facts, inflate
 from flypend.flight.request import Tolerances
+from flypend.laws import law_names
+from flypend.model.shipped import vehicle_names
 from flypend.model.state import convert_packed
 
+# A law and a vehicle at a time, each law once; the slow tests fly all others.
+PAIRS = (
+    ("inverted", "crazyflie"), ("corrected", "nayak2018"), ("printed", "hehn2011"), ("repaired", "crazyflie"),
+    ("almost_global", "hehn2011"), ("lqr", "nayak2018"),
+)  # fmt: skip
+OTHERS = [(law, vehicle) for law in law_names() for vehicle in vehicle_names() if (law, vehicle) not in PAIRS]
 DURATION, SEED = 6.0, 7
 EXACT = Tolerances()
 

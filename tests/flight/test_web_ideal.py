@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_page import DURATION, EXACT, ended_by_page, flown_by_page
+from by_page import DURATION, EXACT, OTHERS, PAIRS, ended_by_page, flown_by_page
 
 import flypend as fp
 from flypend.flight.kernels.ideal import ideal_kernel
@@ -14,15 +14,12 @@ from flypend.flight.request import Tolerances
 from flypend.flight.verdict import goal
 from flypend.lab.flying import poke_state
 from flypend.lab.setting import Poke
-from flypend.laws import law_names
 from flypend.laws.references import circle
-from flypend.model.shipped import vehicle_names
 from flypend.model.state import convert_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
 
 EVERY = 50  # rows
-SOME = ("hehn2011", "nayak2018", "crazyflie")
 CHANGES = np.random.default_rng(1).standard_normal((4, 24))
 OTHER_STEPS = np.linspace(0.8, 1.25, 30)  # one in ten of them meets a corner as unluckily as the worst by rounding
 TIGHT = Tolerances(rtol=1e-12, max_steps=1_000_000)  # more steps than pages take by themselves
@@ -48,15 +45,13 @@ def flown_here(loop, packed, exact=EXACT):
     return np.concatenate([packed[None], flown.samples[0]]), flown
 
 
-@pytest.mark.parametrize("vehicle", SOME)
-@pytest.mark.parametrize("law", ["inverted", "corrected", "printed", "repaired", "almost_global", "lqr"])
+@pytest.mark.parametrize(("law", "vehicle"), PAIRS)
 def test_a_page_flies_the_ideal_plant(law, vehicle, tmp_path):
     assert_equal(law, vehicle, tmp_path)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("vehicle", [name for name in vehicle_names() if name not in SOME])
-@pytest.mark.parametrize("law", law_names())
+@pytest.mark.parametrize(("law", "vehicle"), OTHERS)
 def test_a_page_flies_all_that_ships(law, vehicle, tmp_path):
     assert_equal(law, vehicle, tmp_path)
 

@@ -4,7 +4,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from by_page import DURATION, EXACT, SEED, ended_by_page, flown_by_page
+from by_page import DURATION, EXACT, OTHERS, PAIRS, SEED, ended_by_page, flown_by_page
 from llvmlite import ir
 
 import flypend as fp
@@ -16,17 +16,13 @@ from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_module
 from flypend.flight.live import tunable
 from flypend.flight.signals import Signals
-from flypend.laws import law_names
 from flypend.laws.references import circle
-from flypend.model.shipped import vehicle_names
 from flypend.model.state import convert_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Noise, Plant, Wind
 
 KEPT = 60
-SOME = ("hehn2011", "nayak2018", "crazyflie")
-LAWS = ("inverted", "corrected", "printed", "repaired", "almost_global", "lqr")
 CHANGE = np.random.default_rng(1).standard_normal(24)
 
 
@@ -74,8 +70,7 @@ REAL = plant("rotors").replace(
 )
 
 
-@pytest.mark.parametrize("vehicle", SOME)
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(("law", "vehicle"), PAIRS)
 def test_a_page_flies_what_the_package_flies(law, vehicle, tmp_path):
     error = assert_equal(loop_of(law, vehicle), start(), tmp_path)
     if law in ("inverted", "corrected", "repaired"):  # these settle
@@ -83,8 +78,7 @@ def test_a_page_flies_what_the_package_flies(law, vehicle, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("vehicle", [name for name in vehicle_names() if name not in SOME])
-@pytest.mark.parametrize("law", law_names())
+@pytest.mark.parametrize(("law", "vehicle"), OTHERS)
 def test_a_page_flies_all_that_ships(law, vehicle, tmp_path):
     assert_equal(loop_of(law, vehicle), start(), tmp_path)
 

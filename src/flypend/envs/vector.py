@@ -86,7 +86,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin worlds: world i with `seed` + i, or with its own of a list; without a seed, with new ones.
+        """Begin new episodes: world i with seed `seed` + i, or entry i of a list; without a seed, with new seeds.
 
         With a "reset_mask" (num_envs,) of bool in `options`, only those that it marks; the others stay as they are.
         """
@@ -144,7 +144,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """Return a picture of each world, as `World.render`, or None without a `render_mode`.
 
-        Of a world that has ended it shows the new beginning.
+        For a world that has ended, the picture shows the new beginning.
         """
         if self.render_mode is None:
             return None

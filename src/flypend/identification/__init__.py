@@ -1,4 +1,4 @@
-"""A machine's numbers from a flight log: the numbers that make the prediction errors of a Kalman filter likeliest.
+"""A machine's numbers from a flight log: those for which the prediction errors of a Kalman filter are most likely.
 
 The model is that of the sampled plants. Gusts, noisy feedback and unequal rotors are part of it; bands come from the
 scores of segments of the log, which need no model of the noise to be right.

@@ -89,7 +89,8 @@ class Control:
     wrench : Wrench
         Thrust and moment, in the law's frame.
     lyapunov : dict
-        Scalar expressions whose sum is the law's Lyapunov function V. The closed loop adds V and all their rates.
+        Scalar expressions whose sum is the law's Lyapunov function V. The closed loop adds V, and the rates of V and of
+        each scalar.
     signals : dict
         Other scalar expressions to record.
     """

@@ -96,8 +96,8 @@ def nmpc(
     reference : callable, optional
         Pivot position to hold or follow; see `laws.references`. Default that of `otherwise`, or the origin.
     latency : float
-        Delay to compensate while a plan is flown, s, as in `laws.Computer`; that of `otherwise` is its own. What
-        exceeds it is found in flight as far as `otherwise` looks for it.
+        Delay to compensate while a plan is flown, s, as in `laws.Computer`; that of `otherwise` is its own. A further
+        delay is found in flight, as far as `otherwise` searches for one.
     computing : float or "measured"
         Time that a real-time iteration of 150 stages takes on the flight computer, s. Its result is used that much
         later; the first plan is late in proportion. With "measured", the processor time on this machine counts, and

@@ -116,8 +116,8 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     plan : Plan
         The plan, which starts where the flight starts.
     latency : float
-        Delay to compensate, s, as in `laws.Computer`. What exceeds it is found in flight as far as `otherwise` looks
-        for it.
+        Delay to compensate, s, as in `laws.Computer`. A further delay is found in flight, as far as `otherwise`
+        searches for one.
     otherwise : Law, optional
         The law that takes over for good once rod or pivot are too far from the plan; default the inverted law about the
         target.

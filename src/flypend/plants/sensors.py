@@ -38,7 +38,7 @@ class Sensor:
     noise : float
         Standard deviation of white noise per axis, in the unit of the reading.
     latency : float
-        From the instant of a reading until the flight computer has it, s.
+        Time from a reading until the flight computer receives it, s.
     dropouts : float
         Probability that a reading never arrives.
     quantisation : float

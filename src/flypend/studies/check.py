@@ -85,7 +85,7 @@ class Check:
     warnings : tuple of str
         What leaves little margin, and in which tasks flights fail.
     plans : PlanEnsemble, optional
-        Plans from some of the random starts, where the law fails: what the vehicle could do.
+        Plans from some of the random starts, if the law fails: they show what the vehicle could do.
     """
 
     vehicle: Vehicle
@@ -204,7 +204,7 @@ def check(
     Raises
     ------
     InputError
-        If the plant is ideal, which has no margins; if the law serves a single vehicle only; if a number is out of
+        If the plant is ideal, which has no margins; if the code of a law of your own fails; if a number is out of
         range; or with `bands`, if the vehicle has none. A vehicle that cannot be flown is a result, not an error.
     """
     world = plants.as_sampled(plant)

@@ -1,4 +1,4 @@
-"""Worlds for Stable-Baselines3, and for libraries built on it such as sbx, which have a vector interface of their own."""
+"""Worlds for Stable-Baselines3 and libraries built on it, such as sbx, which have a vector interface of their own."""
 
 from __future__ import annotations
 

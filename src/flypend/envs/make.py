@@ -61,7 +61,7 @@ def environment(
     Parameters
     ----------
     task : str or Task
-        "balance", "swing_up", "track", "catch_in_cup", or a task of one's own.
+        "balance", "swing_up", "track", "catch_in_cup", or a task of your own.
     vehicle : str, Path or Vehicle, optional
         Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional

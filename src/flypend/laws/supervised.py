@@ -62,7 +62,7 @@ GAINS, LAGGED_GAINS = _gains(lag=False), _gains(lag=True)
 def supervised(
     reference: Reference | None = None, *, first: Law | None = None, lag: bool = False, **gains: float
 ) -> Law:
-    """Build the law that flies `first` until the state is in a certified set of `almost_global`, and that law there.
+    """Build the law that flies `first` until the state is in a certified set of `almost_global`, then `almost_global`.
 
     On a plant with rotor limits, a flight that enters the set converges: there the limits never act. Without `lag` the
     plant is `flypend.Ideal(limits=True)`, and with it `flypend.Ideal(limits=True, lag=True)`; sampled plants are not

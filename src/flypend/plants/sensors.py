@@ -42,7 +42,7 @@ class Sensor:
     dropouts : float
         Probability that a reading never arrives.
     quantisation : float
-        Step of the readings, in the unit of the reading; for joints, of the angles. The estimator is told. Not for
+        Step of the readings, in the unit of the reading; for joints, of the angles. The estimator knows it. Not for
         attitude and rod.
     """
 
@@ -292,7 +292,7 @@ class Sensors:
         return replace(self, **changes)
 
     def noisier(self, factor: float) -> Sensors:
-        """Return a copy with the noise of every sensor times `factor`; the estimator is told."""
+        """Return a copy with the noise of every sensor times `factor`; the estimator knows it."""
         return self.replace(**{n: replace(s, noise=factor * s.noise) for n, s in self.streams.items()})
 
     def to_dict(self) -> dict[str, Any]:

@@ -23,6 +23,7 @@ from flypend.plants import ROTORS, SUITES, Plant, Sensor, Wind
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
 from flypend.plants.sensing import WIDTH, draws_size, first_memory, readings_record, sensing
+from tests.few import few, slow
 
 VEHICLE = fp.vehicle("hehn2011")
 LAW = fp.laws.inverted().bind(VEHICLE)
@@ -221,7 +222,9 @@ def flown(suite, seed, duration, wind=None, world=None, start=None, law=LAW):
     return tuple(np.array(column) for column in columns)
 
 
-@pytest.mark.parametrize("suite", [SUITES["mocap"], SUITES["onboard"], EVERYTHING], ids=["mocap", "onboard", "all"])
+@pytest.mark.parametrize(
+    "suite", [slow(SUITES["mocap"]), SUITES["onboard"], EVERYTHING], ids=["mocap", "onboard", "all"]
+)
 def test_without_noise_and_errors_the_estimate_is_the_truth(suite):
     """Every expectation, latency and interpolation is right, or the estimate would leave the truth.
 
@@ -348,7 +351,7 @@ def test_a_wrong_body_is_left_out_and_a_true_jump_is_taken():
     assert update(0.0, 1.0)[1].item() == 0  # a good reading makes up for a wrong one
 
 
-@pytest.mark.parametrize(("name", "duration", "off"), [("mocap", 8.0, 0.005), ("onboard", 15.0, 0.01)])
+@pytest.mark.parametrize(("name", "duration", "off"), [("mocap", 8.0, 0.005), slow("onboard", 15.0, 0.01)])
 def test_a_bias_of_the_gyroscope_is_found(name, duration, off):
     """Within four time constants of its integral, as well as what the noise of the attitude leaves of it.
 
@@ -363,7 +366,7 @@ def test_a_bias_of_the_gyroscope_is_found(name, duration, off):
     np.testing.assert_allclose(found[kept], bias[kept], atol=off)
 
 
-@pytest.mark.parametrize(("name", "duration"), [("mocap", 10.0), ("onboard", 10.0)])
+@pytest.mark.parametrize(("name", "duration"), [("mocap", 10.0), slow("onboard", 10.0)])
 def test_a_bias_of_the_accelerometer_is_not_taken_for_a_force(name, duration):
     """In the end of a hover the mean distance is far below the 6 and 11 cm of an integral of forces alone."""
     plant = Plant(sensors=SUITES[name].replace(accelerometer_bias=(0.2, -0.2, 0.2)))
@@ -424,7 +427,7 @@ def known_rod(monkeypatch):
 
 
 @pytest.mark.usefixtures("known_rod")
-@pytest.mark.parametrize("name", ["mocap", "onboard"])
+@pytest.mark.parametrize("name", ["mocap", slow("onboard")])
 def test_errors_are_as_large_as_it_claims(name):
     check_consistent(normalised(SUITES[name], 12, 1.6, density=0.1), SHORT[name])
 
@@ -497,18 +500,19 @@ def stand(name):
     return int(runs.success.sum())
 
 
-@pytest.mark.parametrize("name", list(CORNERS))
+@pytest.mark.parametrize("name", few(["crazyflie"], CORNERS))
 def test_a_machine_with_every_error_at_a_bound_stands(name):
     assert stand(name) >= 23
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("known_rod")
 def test_a_rod_held_for_known_falls():
     """Negative control of the test above."""
     assert stand("crazyflie") <= 12
 
 
-@pytest.mark.parametrize("name", ["mocap", "onboard"])
+@pytest.mark.parametrize("name", [slow("mocap"), "onboard"])
 def test_a_world_as_the_model_has_it_is_not_claimed_to_be_known_better(name):
     """The filter expects forces that this world lacks: its errors are no larger than it claims."""
     found = np.array([squared(SUITES[name], flown(SUITES[name], seed, 1.6)) for seed in range(6)])
@@ -556,7 +560,7 @@ BOARDS = {
 }
 
 
-@pytest.mark.parametrize("name", BOARDS)
+@pytest.mark.parametrize("name", few(("mocap", "all", "differenced"), BOARDS))
 def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
     around = fp.laws.inverted(references.circle(radius=0.5, rate=2.0)).bind(VEHICLE)  # it matters when commands act
     loop, rng = Loop(VEHICLE, around, BOARDS[name]), np.random.default_rng(3)
@@ -580,8 +584,8 @@ def test_one_step_of_the_program_is_its_stages_one_after_the_other(name):
         ("mocap", "equations"),
         ("onboard", "mujoco"),
         ("differenced", "equations"),
-        *(pytest.param(name, "equations", marks=pytest.mark.slow) for name in ("onboard", "all", "rates")),
-        *(pytest.param(name, "mujoco", marks=pytest.mark.slow) for name in ("mocap", "all", "rates", "differenced")),
+        *(slow(name, "equations") for name in ("onboard", "all", "rates")),
+        *(slow(name, "mujoco") for name in ("mocap", "all", "rates", "differenced")),
     ],
 )
 def test_a_kernel_flies_what_the_python_reference_flies(name, engine):

@@ -14,6 +14,7 @@ from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
 from flypend.flight.tasks import task_starts
 from flypend.plants import PRESETS, ROTORS, SUITES
+from tests.few import each_once, slow
 
 VEHICLE = fp.vehicle("crazyflie")
 NONE = np.zeros(0)
@@ -63,32 +64,40 @@ def test_a_false_delay_in_a_throw_is_taken_for_no_moment(y):
     assert np.abs(found(ROTORS, 2.0, fp.vehicle("hehn2011"), y)).max() < 1e-3
 
 
-@pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
-@pytest.mark.parametrize(
-    ("wrong", "strength"),
-    [({"strength": 0.85}, -0.15), ({"mismatch": {"inertia": 0.8}}, 0.25), ({"centre_of_mass": (0, 0.002, 0)}, 0.0)],
-    ids=["weak rotors", "light inertia", "centre of mass off"],
-)
-def test_the_strength_of_moments_is_found_in_a_throw(wrong, strength, sensors):
+WRONG = {
+    "weak rotors": ({"strength": 0.85}, -0.15),
+    "light inertia": ({"mismatch": {"inertia": 0.8}}, 0.25),
+    "centre of mass off": ({"centre_of_mass": (0, 0.002, 0)}, 0.0),
+}
+
+
+@pytest.mark.parametrize(("name", "sensors"), each_once(WRONG, (None, "mocap")))
+def test_the_strength_of_moments_is_found_in_a_throw(name, sensors):
     """To a quarter, since one throw stands against the doubt before the flight. A lever is told from it."""
+    wrong, strength = WRONG[name]
     plant = ROTORS.replace(sensors=sensors, delay=0.02, **wrong)
     assert found(plant, 3.0, y=(0.0, 0.6, -0.8), what="strength")[-1] == pytest.approx(strength, rel=0.25, abs=0.03)
 
 
-def test_a_light_machine_with_weak_rotors_and_a_short_rod_stands():
-    """Negative control: of these flights one or two stand if the strength of moments is not believed."""
-    late, stand = np.arange(18.0, 20.0, 0.02), []
+def stand(observer=1.5):
+    """How many of twelve flights of a light machine with weak rotors and a short rod stand."""
+    late, law = np.arange(18.0, 20.0, 0.02), fp.laws.inverted(observer=observer)
     plant = ROTORS.replace(
         strength=0.85, mismatch={"mass": 0.8, "bob_mass": 0.8, "rod_length": 0.85}, sensors=SUITES["mocap"], delay=0.02
     )
-    for most, observer in ((trimming.MOST_STRENGTH, 1.5), (0.0, 1.501)):  # two programs
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(trimming, "MOST_STRENGTH", most)
-            law = fp.laws.inverted(observer=observer)
-            flown = fp.simulate_ensemble(VEHICLE, law, fp.random_starts(12, 5), 20.0, plant=plant, times=late)
-        stand.append(np.sum(np.all(flown.samples.y[..., 2] > 0.95, axis=1)))
-    assert stand[0] == 12
-    assert stand[1] < 6
+    flown = fp.simulate_ensemble(VEHICLE, law, fp.random_starts(12, 5), 20.0, plant=plant, times=late)
+    return np.sum(np.all(flown.samples.y[..., 2] > 0.95, axis=1))
+
+
+def test_a_light_machine_with_weak_rotors_and_a_short_rod_stands():
+    assert stand() == 12
+
+
+@pytest.mark.slow
+def test_if_the_strength_of_moments_is_not_believed_it_falls(monkeypatch):
+    """Negative control of the test above: one or two flights stand."""
+    monkeypatch.setattr(trimming, "MOST_STRENGTH", 0.0)
+    assert stand(observer=1.501) < 6  # another program
 
 
 def test_what_is_sent_takes_the_moment_back():
@@ -110,7 +119,7 @@ def test_what_is_sent_takes_the_moment_back():
     assert np.isnan(send(np.array([np.nan, 0.1, 0.1, 0.1]), lever, NONE)).all()
 
 
-@pytest.mark.parametrize("sensors", [None, SUITES["mocap"]], ids=["perfect", "mocap"])
+@pytest.mark.parametrize("sensors", [None, slow(SUITES["mocap"])], ids=["perfect", "mocap"])
 def test_a_short_rod_on_unequal_rotors_stands_at_its_reference(sensors):
     """Two rotors are 8 % apart. Negative control: without a trim it is far off."""
     vehicle = fp.vehicle("hehn2011").replace(rod_length=0.15)

@@ -30,6 +30,7 @@ from flypend.pictures import animate, figures
 from flypend.report import paper
 from flypend.settings import runfile
 from flypend.studies.basin import measure_basin
+from tests.few import slow
 
 ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
 
@@ -524,7 +525,7 @@ def test_a_terminal_that_lacks_the_signs_gets_something_else_for_them(tmp_path):
 # Interrupted ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, slow(signal.SIGTERM)])
 def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
     """Sixty runs of minutes: below 64, nothing was heard. --force is not repeated, for it would start over."""
     (tmp_path / "study.toml").write_text(

@@ -19,6 +19,7 @@ from flypend.flight.metrics import metrics
 from flypend.flight.simulate import fly
 from flypend.settings.runfile import run_file
 from flypend.studies import law_named
+from tests.few import slow
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -137,7 +138,7 @@ def test_the_law_of_ones_own_is_as_short_as_it_is_said_to_be():
 # Manoeuvres -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["cube", "door", "low", "slalom", "poke", "circle", "eight"])
+@pytest.mark.parametrize("name", ["cube", "door", "slalom", "poke", "circle", slow("low"), slow("eight")])
 def test_a_manoeuvre_is_flown_as_it_is_described(at_home, name):
     own = runpy.run_path("examples/manoeuvres.py")
     start, wishes = own["MANOEUVRES"][name]
@@ -164,6 +165,7 @@ def test_a_manoeuvre_is_flown_as_it_is_described(at_home, name):
         assert law.y[:, 2].min() < -0.9  # which lets the rod fall
 
 
+@pytest.mark.slow  # its plans are those of "poke", more of them
 def test_the_worst_blow_is_flown():
     """It is level, on the bob: lighter ones, or those on the vehicle, take less; and the law drops the rod."""
     own = runpy.run_path(str(EXAMPLES / "manoeuvres.py"))

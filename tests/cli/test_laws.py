@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+from tests.few import each_once
+
 TEXT = """
 import numpy as np
 import flypend as fp
@@ -66,8 +68,7 @@ def call(call, tmp_path, monkeypatch):
     return call
 
 
-@pytest.mark.parametrize("law", ["mine.py:balance", "mine.py:stepped"])
-@pytest.mark.parametrize("command", LINES)
+@pytest.mark.parametrize(("command", "law"), each_once(LINES, ("mine.py:stepped", "mine.py:balance")))
 def test_every_command_takes_it(call, command, law):
     code, _, told = call(*LINES[command].split(), law)
     assert code == 0, told

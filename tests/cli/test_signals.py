@@ -185,7 +185,7 @@ def attack(commands, shots, seed, prepared, *, numbers=tuple(LINES), cold=3):
 
 
 def test_signals_at_random_moments(prepared):
-    attack(["run 1 --no-figures -o out", "sweep short.toml -o out.zarr", "export-c -o out"], 6, 3, prepared)
+    attack(["run 1 --no-figures -o out", "sweep short.toml -o out.zarr", "export-c -o out"], 3, 3, prepared)
 
 
 @pytest.mark.parametrize("number", LINES)

@@ -15,6 +15,7 @@ from flypend.lab import alone
 from flypend.paper import experiment
 from flypend.pictures import animate
 from flypend.pictures.style import STYLES
+from tests.few import few
 
 
 @pytest.fixture(scope="module")
@@ -126,7 +127,7 @@ def test_figures_take_a_font_and_leave_out_titles(call, runs, tmp_path):
     assert not (tmp_path / "y").exists()
 
 
-@pytest.mark.parametrize("style", list(STYLES))
+@pytest.mark.parametrize("style", few(["paper"], STYLES))
 def test_figures(call, runs, tmp_path, style, monkeypatch):
     monkeypatch.setattr(terminal, "EVERY", math.inf)  # a busy machine would tell how far it is
     assert call("figures", runs / "4.nc", "--style", style, "-o", "out") == (0, "Figures are in out.\n", "")

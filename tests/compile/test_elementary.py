@@ -7,6 +7,7 @@ from programs import program_of
 from test_vector import compiled, run
 
 from flypend.compile.llvm.emit import Lanes, Module, emit, with_inverse_roots
+from tests.few import each_once
 
 FAR = 1e5  # rad, up to which compile/loops/elementary.hpp does without the C library
 LONG = np.longdouble  # 64 bits of mantissa: its own error is a thousandth of what is measured here
@@ -54,8 +55,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("width", [1, 8, 16])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(("name", "width"), each_once(CASES, (1, 8, 16)))
 def test_it_is_accurate_to_one_and_a_half_units_in_the_last_place(name, width):
     symbolic, exact, x = CASES[name]
     most = ulps(of_lanes(symbolic, x, width), exact(x.astype(LONG))).max()

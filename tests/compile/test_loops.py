@@ -14,6 +14,7 @@ from flypend.compile.llvm.loops import file_of
 from flypend.compile.llvm.random import normals
 from flypend.compile.methods import NAMES, method
 from flypend.compile.problem import LONGEST
+from tests.few import each_once
 
 SOURCE = Path(flypend.__file__).parent / "compile" / "loops"
 
@@ -116,8 +117,7 @@ def exact(start, omega, t):
     return np.concatenate([x * c + v / omega * s, v * c - x * omega * s])
 
 
-@pytest.mark.parametrize("smooth", [1, 0])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "smooth"), each_once(NAMES, (1, 0)))
 def test_oscillators_fly_without_undefined_behaviour(fly, name, smooth):
     """Seven runs through two lanes: statuses, samples, verdicts and touches, against the solution in closed form."""
     told, rows = flown(fly, name, smooth)

@@ -20,6 +20,7 @@ from flypend.export import fits, records, vectors
 from flypend.export.app import AIRFRAMES, limit_rotors
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
+from tests.few import few, slow
 
 LAW = fp.laws.inverted()
 VEHICLE = limit_rotors(fp.vehicle("crazyflie"), AIRFRAMES["cf2"])
@@ -466,7 +467,10 @@ def test_the_same_arguments_give_the_same_bytes(folder, tmp_path):
 # What it costs --------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", LAWS)
+DEEP = ("corrected", "learned", "almost_global", "inverted, with estimator", "inverted, with plan")
+
+
+@pytest.mark.parametrize("name", few(DEEP, LAWS))
 def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp_path):
     app = exported(name, fp.vehicle("crazyflie"), tmp_path)
     used, flown = stack(app)
@@ -498,16 +502,17 @@ def test_a_law_that_does_not_fit_is_refused_and_told_by_how_much(what, most, tmp
 
 
 @pytest.mark.parametrize(
-    ("airframe", "vehicle"),
-    [("cf2", "crazyflie"), pytest.param("cf21bl", "crazyflie-brushless", marks=pytest.mark.slow)],
+    ("airframe", "vehicle", "whole"),
+    [("cf2", "crazyflie", False), slow("cf2", "crazyflie", True), slow("cf21bl", "crazyflie-brushless", True)],
 )
-def test_it_builds_with_the_firmware(airframe, vehicle, firmware_source, tmp_path):
-    """To a binary, by the two commands of its README."""
-    fp.export_app("crazyflie", LAW, fp.vehicle(vehicle), tmp_path)
+def test_it_builds_with_the_firmware(airframe, vehicle, whole, firmware_source, tmp_path):
+    """To a binary, by the two commands of its README; or the app alone, by the firmware's own rules and headers."""
+    fp.export_app("crazyflie", LAW, fp.vehicle(vehicle), tmp_path, height=HEIGHT)
     base = f"CRAZYFLIE_BASE={firmware_source}"
+    alone = (f"objs-y={tmp_path}", "image_LDFLAGS=-nostdlib -r", "PYTHON=true")  # whose sizes PYTHON would tell
     run(["make", base, f"{airframe}_defconfig"], tmp_path)
-    said = run(["make", "-j2", base], tmp_path)
-    assert (tmp_path / "build" / f"{airframe}.bin").stat().st_size > 100_000
+    said = run(["make", "-j2", base, *(() if whole else alone)], tmp_path)
+    assert (tmp_path / "build" / f"{airframe}.bin").stat().st_size > (100_000 if whole else 10_000)
     assert "warning" not in said
     config = (tmp_path / "build" / ".config").read_text()
     assert {"CONFIG_MOTORS_REQUIRE_ARMING=y", "CONFIG_CONTROLLER_OOT=y"} <= set(config.splitlines())

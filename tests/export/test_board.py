@@ -21,6 +21,7 @@ from flypend.plants.equations import EquationsEngine
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Sampled
 from flypend.plants.sensors import sensors_called
+from tests.few import each_once, slow
 
 VEHICLES = {name: fp.vehicle(name) for name in ("hehn2011", "crazyflie")}
 VEHICLE = VEHICLES["hehn2011"]
@@ -41,8 +42,9 @@ def board(precision="double", rate=500.0, law=INVERTED, vehicle=VEHICLE):
 @pytest.mark.parametrize(
     ("machine", "name", "rate"),
     [
-        ("hehn2011", "inverted", 500.0), ("crazyflie", "inverted", 300.0), ("hehn2011", "light", 100.0),
-        ("crazyflie", "corrected", 500.0), ("hehn2011", "lqr", 100.0), ("hehn2011", "learned", 500.0),
+        ("crazyflie", "inverted", 300.0), ("hehn2011", "light", 100.0), ("crazyflie", "corrected", 500.0),
+        ("hehn2011", "learned", 500.0), slow("hehn2011", "inverted", 500.0),
+        slow("hehn2011", "lqr", 100.0),
     ],
 )  # fmt: skip
 def test_it_commands_what_the_board_of_python_commands(machine, name, rate):
@@ -137,7 +139,7 @@ def test_single_precision_inverts_as_well():
     assert np.max(np.abs(run.y[-20:] - [0, 0, 1])) < 0.05
 
 
-@pytest.mark.parametrize("plant", ["rotors", "mujoco"])
+@pytest.mark.parametrize("plant", ["rotors", slow("mujoco")])
 def test_the_crazyflie_stands_inverted_by_the_exported_c_alone(plant):
     vehicle = VEHICLES["crazyflie"]
     starts = fp.State.random(default_rng(2024), 6)
@@ -207,8 +209,7 @@ def test_the_safe_command_levels_where_the_attitude_can_be_trusted(name, status,
         assert np.allclose(rotors, LEAST)
 
 
-@pytest.mark.parametrize("late", [False, True])
-@pytest.mark.parametrize("machine", VEHICLES)
+@pytest.mark.parametrize(("machine", "late"), each_once(VEHICLES, (False, True)))
 def test_without_a_rod_to_be_seen_the_vehicle_levels_out_and_carries_its_weight(machine, late):
     vehicle = VEHICLES[machine]
     law = LAW.bind(vehicle)

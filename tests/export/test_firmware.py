@@ -41,6 +41,7 @@ from benchmarks.firmware.loop import (
     fall,
     states,
 )
+from tests.few import slow
 
 
 @pytest.fixture(scope="module")
@@ -95,7 +96,7 @@ def test_without_the_law_the_app_is_the_firmwares_pid_to_the_bit(built):
     assert np.array_equal(*flights)
 
 
-@pytest.mark.parametrize("name", ["stop setpoint", "emergency stop", "disarmed"])
+@pytest.mark.parametrize("name", ["stop setpoint", slow("emergency stop"), "disarmed"])
 def test_what_stops_the_firmwares_pid_stops_the_law(built, name):
     flown, own, event, end = compared(name, *built)
     assert flown.log[event - 1][2] == LAW
@@ -113,7 +114,10 @@ def test_lost_setpoints_are_levelled_out_as_by_the_firmwares_pid_and_lock_it(bui
     assert 1.9 < stopped(flown, event) < 2.1
 
 
-@pytest.mark.parametrize("name", ["switched off", "land", "link lost", "bob lost", "pose lost", "battery low"])
+ENDS = ["switched off", "land", "bob lost", "battery low", slow("link lost"), slow("pose lost")]
+
+
+@pytest.mark.parametrize("name", ENDS)
 def test_where_the_law_ends_the_motors_do_what_the_firmwares_pid_would(built, name):
     """PID of the app and the firmware's begin with other integrals, and lands or flies on where the law ends."""
     flown, own, event, end = compared(name, *built, after=0.75)

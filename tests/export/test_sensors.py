@@ -11,6 +11,7 @@ from flypend.export.library import CompiledSensors, library
 from flypend.flight.request import Flight
 from flypend.flight.sampled import fly_stepwise
 from flypend.plants import SUITES, Plant
+from tests.few import slow
 
 VEHICLE, LAW = fp.vehicle("hehn2011"), fp.laws.inverted()
 POSES = ("position", "attitude", "rod")
@@ -29,10 +30,7 @@ def flown(law, plant, start, duration):
     "plant",
     [
         Plant(sensors=SLOWER),  # with calmer gains
-        *(
-            pytest.param(p, marks=pytest.mark.slow)
-            for p in (Plant(sensors="mocap"), Plant(sensors="onboard", delay=0.003))
-        ),
+        *(slow(p) for p in (Plant(sensors="mocap"), Plant(sensors="onboard", delay=0.003))),
     ],
 )
 def test_a_flight_by_exported_code_is_the_flight_of_the_board(plant):

@@ -12,6 +12,7 @@ from flypend.flight.request import Tolerances
 from flypend.laws import references
 from flypend.plants import Ideal
 from flypend.plants.loop import Loop
+from tests.few import each_once
 
 CORRECTED = {"vehicle": "nayak2018", "law": fp.laws.corrected(), "duration": 6.5}
 WIDE = Criterion(target="e3", position=100.0, rod=0.1, axis=0.1)
@@ -100,8 +101,7 @@ def differences(case, method, runs, seed, precision="double"):
     return runs, int(differ), int(successes), worst
 
 
-@pytest.mark.parametrize("method", ["dp5", "dop853"])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(("name", "method"), each_once(CASES, ("dp5", "dop853")))
 def test_the_times_are_those_of_a_look_at_every_time(name, method):
     """Settling, last times out of tolerance and so verdict and cause, to the last bit."""
     runs = 16 if name == "printed" else 64

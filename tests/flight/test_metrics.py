@@ -97,14 +97,14 @@ def test_the_box_holds_the_machine_on_its_whole_way(e3):
 
 
 def test_an_ensemble_has_the_box_of_each_run():
-    starts = fp.random_starts(6, 4)
+    starts, law = fp.random_starts(6, 4), fp.laws.inverted()
     for plant in ("rotors", "mujoco"):
-        found = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), starts, 2.0, plant=plant)
+        found = fp.simulate_ensemble(VEHICLE, law, starts, 2.0, plant=plant)
         for i in range(len(found)):
-            own = metrics(fp.simulate(VEHICLE, fp.laws.inverted(), starts[i], 2.0, plant=plant))
+            own = metrics(fp.simulate(VEHICLE, law, starts[i], 2.0, plant=plant))
             for name in ("lowest", "box_x", "box_y", "box_z"):
                 assert getattr(found, name)[i] == pytest.approx(getattr(own, name), abs=1e-9)
-    ideal = fp.simulate_ensemble(VEHICLE, fp.laws.inverted(), starts, 2.0, plant="ideal")
+    ideal = fp.simulate_ensemble(VEHICLE, law, starts, 2.0, plant="ideal")
     assert np.all(np.isnan(ideal.lowest))
 
 

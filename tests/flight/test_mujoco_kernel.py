@@ -13,6 +13,7 @@ from flypend.flight.sampled import fly_stepwise
 from flypend.plants import MOTION_CAPTURE, Plant, Wind
 from flypend.plants.loop import Loop
 from flypend.plants.mujoco import MOST_IDLE, MuJoCoWorld
+from tests.few import few
 
 VEHICLE = fp.vehicle("hehn2011")
 INVERTED = fp.laws.inverted().bind(VEHICLE)
@@ -58,8 +59,7 @@ def test_it_is_the_flight_step_by_step(name):
     np.testing.assert_allclose(ours[:, 24:], steps.rotors, rtol=0, atol=1e-8)
 
 
-@pytest.mark.parametrize("own", [0.0, 0.02])
-@pytest.mark.parametrize("lag", [None, 0.0, 0.03])
+@pytest.mark.parametrize(("lag", "own"), few(((None, 0.02), (0.0, 0.02), (0.03, 0.0)), (None, 0.0, 0.03), (0.0, 0.02)))
 def test_the_lag_of_vehicle_and_plant_in_any_combination(own, lag):
     vehicle, plant = VEHICLE.replace(rotor_lag=own), MUJOCO.replace(lag=lag)
     start = fp.State.random(np.random.default_rng(8))

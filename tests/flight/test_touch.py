@@ -10,6 +10,7 @@ import flypend as fp
 from flypend.compile.numeric import as_numpy
 from flypend.flight.touch import NEVER, room, touching
 from flypend.model.mount import part_names
+from tests.few import few, slow
 
 mujoco = pytest.importorskip("mujoco")
 
@@ -28,7 +29,7 @@ def with_forces(run):
     return np.concatenate([run.packed, run.rotor_forces], axis=1)
 
 
-@pytest.mark.parametrize(("mount", "e3"), [("hub", "up"), ("cup", "up"), ("hub", "down")])
+@pytest.mark.parametrize(("mount", "e3"), [slow("hub", "up"), ("cup", "up"), ("hub", "down")])
 def test_in_the_ideal_plant_kernel_and_scipy_end_at_the_same_touch(mount, e3):
     name, law = ("hehn2011", fp.laws.inverted()) if e3 == "up" else ("nayak2018", fp.laws.corrected())
     vehicle, starts = fp.vehicle(name).replace(mount=mount), fp.random_starts(10, 31)
@@ -205,7 +206,7 @@ FLOORS = {
 }
 
 
-@pytest.mark.parametrize("name", FLOORS)
+@pytest.mark.parametrize("name", few(("mujoco", "rates", "wrong rod", "ideal"), FLOORS))
 def test_kernel_and_reference_end_at_the_same_floor(name):
     starts, duration, plant = fp.random_starts(12, 3), 2.0, FLOORS[name]
     ends = fp.simulate_ensemble(FREE, LAW, starts, duration, plant=plant)
@@ -223,7 +224,7 @@ def test_kernel_and_reference_end_at_the_same_floor(name):
     assert np.all(np.isinf(ends.clearance))  # the floor is no part of the mount
 
 
-@pytest.mark.parametrize("e3", ["up", "down"])
+@pytest.mark.parametrize("e3", [slow("up"), "down"])
 def test_in_free_fall_the_lowest_part_lands_when_galileo_says(e3):
     """The rod hangs, and no rotor gives any force; height is upward in either frame."""
     vehicle = FREE.replace(rotor_limits=(0.0, FREE.rotor_limits[1]))

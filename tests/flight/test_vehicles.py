@@ -9,6 +9,7 @@ import flypend as fp
 from flypend.export.app import AIRFRAMES, limit_rotors
 from flypend.model.shipped import vehicle_names
 from flypend.plants import Plant
+from tests.few import few
 
 # RotorPy at commit 9b760b8: mass, inertia, arm, thrust, yaw, drag, inflow, lift and lag per rotor speed.
 ROTORPY = {
@@ -49,9 +50,14 @@ def test_each_file_says_where_its_numbers_come_from(name):
 
 
 @pytest.mark.parametrize("name", [name for name in vehicle_names() if name != "nayak2018"])
-def test_each_stands_in_the_default_plant_and_in_air(name):
+def test_each_stands_in_the_default_plant(name):
     """500 of 500 in the docs; the slow one is in tests/laws/test_inverted.py."""
     vehicle, starts = fp.vehicle(name), fp.random_starts(16, seed=5)
     assert np.all(fp.simulate_ensemble(vehicle, fp.laws.inverted(), starts, 10.0).success)
-    if vehicle.air is not None:
-        assert np.all(fp.simulate_ensemble(vehicle, fp.laws.inverted(), starts, 10.0, plant=Plant(air="all")).success)
+
+
+@pytest.mark.parametrize("name", few(("crazyflie",), [name for name in vehicle_names() if fp.vehicle(name).air]))
+def test_and_in_air(name):
+    starts = fp.random_starts(16, seed=5)
+    flown = fp.simulate_ensemble(fp.vehicle(name), fp.laws.inverted(), starts, 10.0, plant=Plant(air="all"))
+    assert np.all(flown.success)

@@ -18,6 +18,7 @@ from flypend.laws.references import circle
 from flypend.model.state import convert_packed
 from flypend.plants import plant
 from flypend.plants.loop import Loop
+from tests.few import slow
 
 EVERY = 50  # rows
 CHANGES = np.random.default_rng(1).standard_normal((4, 24))
@@ -99,7 +100,7 @@ def test_its_rotor_forces_are_those_that_the_law_requires(tmp_path):
     np.testing.assert_allclose(page[0, ticks, 24:], run.rotor_forces, atol=1e-9)
 
 
-@pytest.mark.parametrize("law", ["corrected", "inverted"])
+@pytest.mark.parametrize("law", ["corrected", slow("inverted")])
 def test_pokes_gains_and_a_moved_place_are_those_of_the_package(law, tmp_path):
     rng, loop = np.random.default_rng(3), loop_of(law)
     loop = replace(loop, parameters=tunable(loop.law))

@@ -45,6 +45,7 @@ def test_the_numbers_that_flew_are_found(found):
     meets_goals(found)
 
 
+@pytest.mark.slow  # test_rosbag.py compares the columns
 def test_so_are_they_from_a_bag(log, tmp_path):
     """Topics have stamps and rates of their own there: cameras see every second row."""
     rows = [line.split(",") for line in log.read_text().splitlines()]

@@ -215,6 +215,7 @@ def test_a_flight_goes_on_in_the_laboratory(visit):
     expect_flight(page)
 
 
+@pytest.mark.slow  # test_lab.py flies that law, test_live_page.py its page, and the tests above poke others
 def test_the_learned_law_is_flown_poked_and_goes_on(visit):
     """Its network takes longer to compile than any other law: what is compiled here is at hand for the server."""
     learned = OFFER["first"] | {"law": {"name": "learned", "gains": {}}, "duration": 8}

@@ -17,6 +17,7 @@ from tornado.websocket import websocket_connect
 from flypend.lab.flying import MOST_STEPS, fly
 from flypend.lab.server import MOST_PAGES
 from flypend.lab.setting import setting_of
+from tests.few import slow
 
 # Within the bounds of a page, a hundred times the proposed gains: 37 s of processor without a budget.
 STIFF = {"attitude_bandwidth": 1700.0, "attitude_damping": 70.0}
@@ -187,7 +188,7 @@ def resident(process):
     return 0.0
 
 
-@pytest.mark.parametrize("seconds", [8, pytest.param(600, marks=pytest.mark.slow)], ids=["short", "ten minutes"])
+@pytest.mark.parametrize("seconds", [8, slow(600)], ids=["short", "ten minutes"])
 def test_a_page_is_answered_whatever_the_others_do(seconds):
     lab = Lab()
     try:

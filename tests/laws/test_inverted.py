@@ -24,6 +24,7 @@ from flypend.model.state import SIZE
 from flypend.plants import PRESETS, Plant
 from flypend.settings.laws import DETUNED
 from flypend.studies import random_starts
+from tests.few import each_once
 
 property_test = settings(max_examples=60, deadline=None, derandomize=True)
 
@@ -710,18 +711,18 @@ def test_inverted_at_rest_it_stays():
     assert np.max(geo.norm(run.y - E3)) < 1e-10  # roundoff, which the fall of the first instants lets grow
 
 
-@pytest.mark.parametrize("plant", ["ideal", "rotors"])
-@pytest.mark.parametrize(
-    ("reference", "error"),
-    [
-        (hover((1, -2, 0.5)), 5e-4),
-        (line((0, 0, 0), (1.0, 0.5, 0.2)), 5e-4),
-        # What is left on a curve: two steps of the fixed point, a share of the rate of z_d and none of ÿ_d.
-        (circle(0.5, 1.0), 0.02),
-        (lemniscate(1.0, 1.0), 0.1),
-    ],
-)
-def test_it_holds_and_follows_a_reference(plant, reference, error):
+FOLLOWED = {
+    "hover": (hover((1, -2, 0.5)), 5e-4),
+    "line": (line((0, 0, 0), (1.0, 0.5, 0.2)), 5e-4),
+    # What is left on a curve: two steps of the fixed point, a share of the rate of z_d and none of ÿ_d.
+    "circle": (circle(0.5, 1.0), 0.02),
+    "lemniscate": (lemniscate(1.0, 1.0), 0.1),
+}
+
+
+@pytest.mark.parametrize(("name", "plant"), each_once(FOLLOWED, ("ideal", "rotors")))
+def test_it_holds_and_follows_a_reference(name, plant):
+    reference, error = FOLLOWED[name]
     run = fp.simulate(VEHICLE, fp.laws.inverted(reference), fp.State(y=E3), 8.0, plant=plant)
     last = run.t > 6
     assert np.max(geo.norm(run.x - run.x_ref)[last]) < error

@@ -9,6 +9,7 @@ from benchmarks.withstood import withstood
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.repaired import stiffness
 from flypend.model.state import project
+from tests.few import each_once
 
 RATE = slice(21, 24)  # ẏ in a packed state
 LAWS = {
@@ -44,8 +45,7 @@ def drawn(rng, count, size):
     return states.packed(), fp.geometry.project_tangent(y, rng.standard_normal((count, 3)))
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("share", [0.01, 0.5, 1.5])
+@pytest.mark.parametrize(("name", "share"), each_once(LAWS, (0.01, 0.5, 1.5)))
 def test_w_falls_against_every_acceleration_wherever_v_is_below_the_level(name, share):
     law = LAWS[name]
     bound = withstood(law, share * float(stiffness(law.vehicle)))

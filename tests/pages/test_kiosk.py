@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from tests.few import each_once
 
 SIZE = {"width": 900, "height": 600}
 PHONE = {"width": 390, "height": 844}
@@ -132,8 +133,7 @@ def test_the_address_is_a_code_that_a_phone_reads(visit, axe, node_modules):
     page.locator(".sheet").wait_for(state="detached")  # a dialog tells of its end in a later task
 
 
-@pytest.mark.parametrize("live", [False, True])
-@pytest.mark.parametrize("viewport", [PHONE, {"width": 1024, "height": 768}])
+@pytest.mark.parametrize(("viewport", "live"), each_once((PHONE, {"width": 1024, "height": 768}), (False, True)))
 def test_a_finger_hits_every_control(visit, live, viewport):
     page = visit(live=live, viewport=viewport, is_mobile=True)
     if live:

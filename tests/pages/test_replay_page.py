@@ -20,6 +20,7 @@ from flypend.flight.verdict import verdict
 from flypend.pages import replay
 from flypend.paper import experiment
 
+LAW = fp.laws.inverted()
 WIDE, NARROW = {"width": 1280, "height": 720}, {"width": 390, "height": 844}
 SMALL = {"width": 900, "height": 520}  # drawn fast enough in software
 
@@ -51,7 +52,7 @@ def down():
 @pytest.fixture(scope="module")
 def up():
     start = fp.State(x=(0.3, -0.2, 0.1), y=(0.6, 0, 0.8), omega=(0.5, -1, 2))
-    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, 2.0, plant="rotors")
+    return fp.simulate(fp.vehicle("hehn2011"), LAW, start, 2.0, plant="rotors")
 
 
 @pytest.fixture(scope="module")
@@ -162,7 +163,7 @@ def test_the_readings_beside_the_plots_are_the_values_of_the_run(visit, up):
 
 @pytest.fixture(scope="module")
 def thrown():
-    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.0)
+    return fp.simulate(fp.vehicle("hehn2011"), LAW, fp.State(y=(0, 0, -1)), 3.0)
 
 
 def phases(page, i=0):
@@ -225,7 +226,7 @@ def ink(page, t):
 
 def test_blades_blur_by_the_speed_of_their_rotor(visit):
     """At rest two blades are seen; in hover the same ink is spread over trails, paler and wider."""
-    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 4.0, plant="rotors")
+    run = fp.simulate(fp.vehicle("hehn2011"), LAW, fp.State(y=(0, 0, 1)), 4.0, plant="rotors")
     assert run.rotor_forces[0].max() < 0.1 * run.rotor_forces[-1].mean()
     page = visit(run, drawn=True)
     rest, hover = ink(page, 0.0), ink(page, 4.0)
@@ -260,7 +261,7 @@ def fallen():
 @pytest.fixture(scope="module")
 def still():
     """Upright from the start: nothing moves but the last digits."""
-    return fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 2.0, plant="ideal")
+    return fp.simulate(fp.vehicle("hehn2011"), LAW, fp.State(y=(0, 0, 1)), 2.0, plant="ideal")
 
 
 def told(page):
@@ -453,7 +454,7 @@ def test_a_movie_plays_at_its_speed_however_slowly_it_is_drawn(visit, up, tmp_pa
 
 
 def test_movies_and_pictures_have_the_size_that_is_chosen(visit, tmp_path):
-    short = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0.6, 0, 0.8)), 0.1)
+    short = fp.simulate(fp.vehicle("hehn2011"), LAW, fp.State(y=(0.6, 0, 0.8)), 0.1)
     page = visit(short, speed=2)
     page.locator(".sizes").select_option("1080p")
     frames, facts, _ = movie(page, tmp_path / "a.webm")

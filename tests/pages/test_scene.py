@@ -15,6 +15,7 @@ from benchmarks.frames import AT_REST
 from flypend.flight.live import live_data
 from flypend.geometry import unit
 
+LAW = fp.laws.inverted()
 SMALL = {"width": 900, "height": 520}
 MACHINE = fp.vehicle("hehn2011")
 
@@ -46,7 +47,7 @@ def picture(page):
 
 
 def hovering(mount="gimbal"):
-    return fp.simulate(MACHINE.replace(mount=mount), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.5)
+    return fp.simulate(MACHINE.replace(mount=mount), LAW, fp.State(y=(0, 0, 1)), 0.5)
 
 
 def test_the_floor_stays_where_it_is_while_a_live_flight_falls(visit):
@@ -62,7 +63,7 @@ def test_the_floor_stays_where_it_is_while_a_live_flight_falls(visit):
 
 
 def test_the_floor_is_drawn_where_the_world_has_one(visit):
-    run = fp.simulate(MACHINE, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.5, plant=fp.Plant(floor=-1.25))
+    run = fp.simulate(MACHINE, LAW, fp.State(y=(0, 0, 1)), 0.5, plant=fp.Plant(floor=-1.25))
     assert visit(run).evaluate("flypend.floor()") == -1.25
     assert visit(hovering()).evaluate("flypend.floor()") != -1.25
 
@@ -131,7 +132,7 @@ def covered(page):
 def test_no_height_is_half_below_other_words(visit):
     """Whatever the camera follows, and on a phone, where the words take more lines."""
     hanging = fp.State(y=(0, 0, -1))
-    page, told = visit(fp.simulate(MACHINE.replace(mount="hub"), fp.laws.inverted(), hanging, 2.6)), set()
+    page, told = visit(fp.simulate(MACHINE.replace(mount="hub"), LAW, hanging, 2.6)), set()
     for width in (390, 768):
         page.set_viewport_size({"width": width, "height": 1000})
         for t in np.arange(1.4, 2.6, 0.3):
@@ -177,7 +178,7 @@ def test_forbidden_starts_are_shaded_and_a_rod_in_one_is_freed(visit):
 
 
 def test_the_pass_between_the_arms_is_seen_from_near_by_with_its_clearance(visit):
-    run = fp.simulate(MACHINE.replace(mount="hub"), fp.laws.inverted(), fp.State(y=(0, 0, -1)), 3.0)
+    run = fp.simulate(MACHINE.replace(mount="hub"), LAW, fp.State(y=(0, 0, -1)), 3.0)
     least = run.t[np.argmin(run.clearance)]
     page = visit(run, drawn=True)
     near = page.locator(".near")
@@ -196,7 +197,7 @@ def test_the_pass_between_the_arms_is_seen_from_near_by_with_its_clearance(visit
 
 
 def test_a_gimbal_has_no_arms_to_pass(visit):
-    page = visit(fp.simulate(MACHINE, fp.laws.inverted(), fp.State(y=(0, 0, -1)), 1.5))
+    page = visit(fp.simulate(MACHINE, LAW, fp.State(y=(0, 0, -1)), 1.5))
     page.evaluate("flypend.seek(1)")
     until(page, "() => flypend.time() === 1")
     assert page.locator(".near").is_hidden()

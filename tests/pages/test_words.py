@@ -12,6 +12,7 @@ from flypend.flight.verdict import verdict
 from flypend.geometry import E3, norm
 from flypend.pages import replay
 from flypend.palette import PAGE, STATES
+from tests.few import slow
 
 DURATION = {"corrected": 12.0}  # s, of laws that take longer than 6 s
 FLIGHTS = [
@@ -49,7 +50,7 @@ def told(runs, folder):
     return json.loads(subprocess.run(["node", script, packed], check=True, capture_output=True, text=True).stdout)
 
 
-@pytest.mark.parametrize("count", [24, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [24, slow(200)])
 def test_captions_colours_and_verdicts_agree(count, tmp_path):
     runs = flown(count)
     seen = set()

@@ -14,6 +14,7 @@ from flypend.paper.descent import PROVED, RISES, any_rotors, descend, laws, rela
 from flypend.paper.proved import SWING_UPS, claims_of, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
 from flypend.paper.stability import RUNAWAYS, runaway_starts
 from flypend.pictures.descent import basin_figure
+from tests.few import slow
 
 PAPERS, HEHN = fp.vehicle("nayak2018"), fp.vehicle("hehn2011")
 HANGING = fp.Criterion(target="e3", position=np.inf)
@@ -67,7 +68,7 @@ def test_the_starts_from_which_the_corrected_law_runs_away_hang():
         assert flown.success.all()
 
 
-@pytest.mark.parametrize("runs", [200, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("runs", [200, slow(2000)])
 def test_all_random_starts_converge_under_both_theorems(runs):
     starts = fp.random_starts(2000, 2024)[:runs]
     hang = fp.simulate_ensemble(PAPERS, fp.laws.repaired(), starts.flipped(), 12.0, plant="ideal", criterion=HANGING)
@@ -88,7 +89,7 @@ def test_v_never_rises_from_the_wide_box(name):
     assert found.worst_rise < 1e-9
 
 
-@pytest.mark.parametrize(("vehicle", "lag"), [("hehn2011", 0.06), ("crazyflie", 0.072)])
+@pytest.mark.parametrize(("vehicle", "lag"), [("hehn2011", 0.06), slow("crazyflie", 0.072)])
 def test_v_never_rises_through_a_longer_lag(vehicle, lag):
     found = descend("almost_global_lag", 32, 3, machine=fp.vehicle(vehicle).replace(rotor_lag=lag))
     assert (found.converged, found.ended, found.rising) == (32, 0, 0)

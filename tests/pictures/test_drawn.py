@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from benchmarks import hero, pages
+from tests.few import slow
 
 TRACKED = Path(__file__).parents[2] / "docs" / "img"
 FAR = 40  # of 255: more than few colours or a lossy format change
@@ -26,9 +27,8 @@ def differing(one, other):
         "vehicles",
         "machine",
         "swing-up",
-        "plan-under-the-bar",
         "plan-out-and-back",
-        *(pytest.param(name, marks=pytest.mark.slow) for name in ("replay", "lab", "live")),
+        *(slow(name) for name in ("plan-under-the-bar", "replay", "lab", "live")),
     ],
 )
 def test_a_picture_is_of_todays_code(name, tmp_path, monkeypatch):

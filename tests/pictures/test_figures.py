@@ -26,6 +26,7 @@ from flypend.paper import experiment
 from flypend.pictures import canvas, drawing, figures
 from flypend.pictures.frames import stage
 from flypend.pictures.style import STYLES, style_named
+from tests.few import each_once, few
 
 ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
 
@@ -443,8 +444,13 @@ DRAWN = {
 }
 
 
-@pytest.mark.parametrize("kind", DRAWN)
-@pytest.mark.parametrize("which", ["2", "4", "5", "printed", "at the start"])
+CROWDED = (
+    ("paper", "5"), ("full", "at the start"), ("full", "2"), ("stop motion", "5"), ("from above, 5", "printed"),
+    ("3", "at the start"), ("24", "4"), ("24", "printed"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "which"), few(CROWDED, DRAWN, ("2", "4", "5", "printed", "at the start")))
 def test_no_text_is_cut_off_or_overlaps(kind, which, singular, monkeypatch):
     shown = {"printed": singular, "at the start": at_the_start(singular)}.get(which) or fly(which)
     assert overlaps(DRAWN[kind](shown), monkeypatch) == []
@@ -518,8 +524,7 @@ def test_no_window_and_no_pyplot_state():
 SET = [figures.paper_figure, figures.full_figure, figures.stop_motion]
 
 
-@pytest.mark.parametrize("style", list(STYLES))
-@pytest.mark.parametrize("figure", SET)
+@pytest.mark.parametrize(("figure", "style"), each_once(SET, STYLES))
 def test_a_style_sets_the_format_and_nothing_is_cut_off(run, figure, style):
     drawn, form = figure(run, style=style), STYLES[style]
     width, height = drawn.get_size_inches()

@@ -16,6 +16,7 @@ from flypend.pictures.maps import FAILED, map_figure
 from flypend.studies.sweep import bins, cube
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.store import existing, open_store
+from tests.few import slow
 
 STUDY = {
     "vehicle": "nayak2018", "law": {"name": "corrected"}, "plant": "ideal", "duration": 4.0, "judge_period": 0.1,
@@ -239,7 +240,7 @@ def peak(path, out):
     return int(done.stdout)
 
 
-@pytest.mark.parametrize("runs", [2_000_000, pytest.param(10_000_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("runs", [2_000_000, slow(10_000_000)])
 def test_millions_of_runs_take_no_more_memory_than_a_chunk(runs, tmp_path):
     """Every chunk of the store is a copy of the first: millions of runs to read, the memory of a hundred thousand."""
     small, large = tmp_path / "small.zarr", tmp_path / "large.zarr"

@@ -22,8 +22,10 @@ from flypend.planning.search import NOT_KEPT, Verdict
 from flypend.planning.solver import Measures
 from flypend.plants.equations import EquationsEngine
 from flypend.settings.laws import law_from, law_named
+from tests.few import slow
 
 HEHN = fp.vehicle("hehn2011")
+LAW = fp.laws.inverted()
 STARTS = fp.random_starts(3, seed=2026)
 HANGING = fp.State(y=(0, 0, -1))
 NONE = np.zeros(6)
@@ -147,7 +149,7 @@ def test_it_plans_flies_and_hands_over(nominal):
     # What computing is charged: 12 ms of sketch and 53 of plan.
     assert flown.changes[0][0] == pytest.approx(0.066, abs=1.1 * LEAST_DELAY)
     assert result.excursion < 1.05 * flown.plans[0].excursion
-    assert result.excursion < 0.5 * fp.metrics(fp.simulate(HEHN, fp.laws.inverted(), STARTS[1], 6)).excursion
+    assert result.excursion < 0.5 * fp.metrics(fp.simulate(HEHN, LAW, STARTS[1], 6)).excursion
 
 
 def test_flights_repeat_bit_for_bit(nominal):
@@ -155,7 +157,7 @@ def test_flights_repeat_bit_for_bit(nominal):
     np.testing.assert_array_equal(again.packed, nominal[0].packed[: len(again.t)])
 
 
-@pytest.mark.parametrize("factor", [0.9, 1.1])
+@pytest.mark.parametrize("factor", [slow(0.9), 1.1])
 def test_masses_off_by_a_tenth_and_late_commands(factor):
     plant = fp.Plant(mismatch={"mass": factor, "bob_mass": factor}, delay=0.01)
     run, flown = flown_by(fp.nmpc(latency=0.01), STARTS[2], 6, plant)
@@ -169,19 +171,17 @@ def test_a_wrong_thrust_scale_is_not_taken_for_a_force():
     """Taken for a force, masses x 0.8 led this start 5.4 m away, and never to hover."""
     start, plant = fp.random_starts(16, seed=7100)[1], fp.Plant(mismatch={"mass": 0.8, "bob_mass": 0.8})
     run, flown = flown_by(fp.nmpc(), start, 6, plant)
-    law = fp.simulate(HEHN, fp.laws.inverted(), start, 6, plant=plant)
+    law = fp.simulate(HEHN, LAW, start, 6, plant=plant)
     assert fp.metrics(run).success
     assert modes(flown) == ["planned", "hovering"]
     assert fp.metrics(run).excursion < 0.7 * fp.metrics(law).excursion
 
 
-@pytest.mark.parametrize("number", range(3))
+@pytest.mark.parametrize("number", [0, *(slow(number) for number in (1, 2))])
 def test_a_delay_that_nobody_told_of_is_found(number):
     """Not looked for, 30 ms lost every plan, and the law between them."""
     plant = fp.Plant(delay=0.03)
-    by_plan, by_law = (
-        fp.simulate(HEHN, law, STARTS[number], 8, plant=plant) for law in (fp.nmpc(), fp.laws.inverted())
-    )
+    by_plan, by_law = (fp.simulate(HEHN, law, STARTS[number], 8, plant=plant) for law in (fp.nmpc(), LAW))
     assert fp.metrics(by_plan).success
     assert fp.metrics(by_plan).excursion < 0.7 * fp.metrics(by_law).excursion
 
@@ -196,7 +196,7 @@ def test_a_poke_that_the_law_answers_by_dropping_the_rod_is_caught():
     plant = fp.Plant(wind=fp.Wind(knock_on_vehicle=0.5, knock_on_bob=0.15, knock_period=3.0), seed=0)
     upright = fp.State(y=(0, 0, 1))
     run, flown = flown_by(fp.nmpc(), upright, 3.0, plant)
-    law = fp.simulate(HEHN, fp.laws.inverted(), upright, 3.0, plant=plant)
+    law = fp.simulate(HEHN, LAW, upright, 3.0, plant=plant)
     assert modes(flown)[:3] == ["hovering", "waiting", "planned"]
     assert np.min(law.y[:, 2]) < 0
     assert np.max(norm(run.x)) < 0.5 * np.max(norm(law.x))
@@ -250,9 +250,7 @@ def beyond(run):
 def test_a_wall_is_kept_with_masses_off_by_a_tenth(plant):
     """The law goes through by 0.3 m."""
     box = ((WALL, -np.inf, -np.inf), (np.inf, np.inf, np.inf))
-    kept, law = (
-        fp.simulate(HEHN, law, STARTS[1], 1.5, plant=plant) for law in (fp.nmpc(HEHN, box=box), fp.laws.inverted())
-    )
+    kept, law = (fp.simulate(HEHN, law, STARTS[1], 1.5, plant=plant) for law in (fp.nmpc(HEHN, box=box), LAW))
     assert beyond(kept) < 0
     assert beyond(law) > 0.2
 
@@ -284,7 +282,7 @@ def test_where_no_plan_is_in_time_to_keep_walls_that_which_breaks_them_least_is_
     """Not the law, which breaks them by far more."""
     start, walls = fp.random_starts(16, 9100)[6], fp.Constraints(box=((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf)))
     run, pilot = flown_by(fp.nmpc(HEHN, constraints=walls), start, 1.2)
-    by_law = fp.simulate(HEHN, fp.laws.inverted(), start, 1.2, plant="rotors")
+    by_law = fp.simulate(HEHN, LAW, start, 1.2, plant="rotors")
     nmpc, law = (np.max(np.abs([run.x, run.x + HEHN.reach * run.y])[..., :2]) - 0.6 for run in (run, by_law))
     assert modes(pilot)[:2] == ["planned"]
     assert nmpc < 0.05
@@ -389,7 +387,7 @@ def test_constraints_of_ones_own_see_newtons_whatever_the_thrust_scale(planned):
 
 @pytest.fixture(scope="module")
 def by_law():
-    return fp.simulate(HEHN, fp.laws.inverted(), STARTS[1], 8.0, engine="scipy")
+    return fp.simulate(HEHN, LAW, STARTS[1], 8.0, engine="scipy")
 
 
 def same_flight(run, by_law):
@@ -421,7 +419,7 @@ def test_a_blow_in_mid_throw_is_noticed_at_once_and_planned_for():
     start = fp.random_starts(16, seed=7100)[1]
     plant = fp.Plant(wind=fp.Wind(knock_on_vehicle=4 * HEHN.M, knock_period=10.0), seed=1011)
     run, flown = flown_by(fp.nmpc(), start, 10, plant)
-    law = fp.simulate(HEHN, fp.laws.inverted(), start, 10, plant=plant)
+    law = fp.simulate(HEHN, LAW, start, 10, plant=plant)
     struck = run.t[np.argmax(norm(np.diff(run.x_dot, axis=0)))]
     assert [(mode, why) for _, mode, why in flown.changes][1] == ("waiting", "the flight is not as predicted")
     assert struck < flown.changes[1][0] < struck + 3 * flown.plans[0].stage
@@ -452,7 +450,7 @@ def test_feedback_alone_flies_when_no_iteration_is_in_time(monkeypatch):
     assert flown.spent == []
 
 
-@pytest.mark.parametrize("number", range(2))
+@pytest.mark.parametrize("number", [0, slow(1)])
 def test_switches_at_any_time_lose_no_flight(number, monkeypatch):
     """Plans are lost at random moments, up to as often as nmpc tries; the law alone would stand, and so it stands."""
     rng, command = np.random.default_rng(number), PlanInFlight.command
@@ -477,7 +475,7 @@ def test_a_slow_computer_plans_less_and_stands():
 
 def test_a_computer_too_slow_for_any_plan_flies_the_law():
     run, flown = flown_by(fp.nmpc(computing=10), STARTS[1], 1.0)
-    law = fp.simulate(HEHN, fp.laws.inverted(), STARTS[1], 1.0)
+    law = fp.simulate(HEHN, LAW, STARTS[1], 1.0)
     np.testing.assert_allclose(run.x, law.x, atol=1e-9)
     assert flown.changes[0][1:] == ("waiting", "a plan would take longer than its flight")
 
@@ -492,7 +490,7 @@ def test_time_that_is_measured_is_charged():
 
 
 def test_it_is_a_row_beside_laws():
-    rows = fp.compare(HEHN, [law_named("nmpc"), fp.laws.inverted()], STARTS[:2], 2.0, workers=1).rows()
+    rows = fp.compare(HEHN, [law_named("nmpc"), LAW], STARTS[:2], 2.0, workers=1).rows()
     assert [row["law"] for row in rows] == ["nmpc", "inverted"]
     assert rows[0]["excursion_p50"] < rows[1]["excursion_p50"]
 

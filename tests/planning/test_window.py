@@ -8,6 +8,7 @@ import pytest
 import flypend as fp
 from flypend.geometry import norm
 from flypend.planning.window import NEAR
+from tests.few import slow
 
 HEHN = fp.vehicle("hehn2011")
 HOVER = {"rotors": np.full(4, HEHN.weight / 4), "target": (1.5, 0, 0)}
@@ -185,7 +186,7 @@ def test_windows_that_are_none_are_refused(changes, line):
         fp.Window(**{"centre": (0, 0, 0), "width": 1.0, "height": 1.0, **changes})
 
 
-@pytest.mark.parametrize(("width", "height", "degrees"), [(0.7, 0.4, 60), (0.55, 0.4, 75)])
+@pytest.mark.parametrize(("width", "height", "degrees"), [slow(0.7, 0.4, 60), (0.55, 0.4, 75)])
 def test_a_rod_that_must_lean_and_may_not_fall_passes_a_low_window(width, height, degrees):
     """Upright is a saddle, which guesses that stay upright do not leave."""
     window, limit = fp.Window(centre=(0, 0, 0.2), width=width, height=height), np.radians(degrees)

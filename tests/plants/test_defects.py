@@ -1,6 +1,7 @@
 """Defects of sensors: each does what its definition says, in NumPy; one of size 0 adds nothing; nobody is told."""
 
 import itertools
+from functools import cache
 from statistics import NormalDist
 
 import casadi as ca
@@ -54,10 +55,14 @@ def wandering(ticks, seed=0):
     return np.array(states)
 
 
+@cache
+def sense_of(suite):
+    return as_numpy(sensing(suite, VEHICLE, PERIOD))
+
+
 def read(suite, states, seed=1, rng=None, at_start=None):
     """What is delivered at each tick, by stream: numbers and ages; and the random numbers of the ticks."""
-    sense = as_numpy(sensing(suite, VEHICLE, PERIOD))
-    draws = normals(seed, len(states), draws_size(suite))
+    sense, draws = sense_of(suite), normals(seed, len(states), draws_size(suite))
     for noise, _ in draws_of(suite).values():
         draws[:, noise] = 0.0
     first = normals(seed, 1, start_draws(suite), first=2**40)[0] if at_start is None else at_start

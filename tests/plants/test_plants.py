@@ -17,6 +17,7 @@ from flypend.model.state import FLIP_PACKED, MAX_STATE
 from flypend.plants import MOTION_CAPTURE, PRESETS, Noise, Plant, Wind, plant
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.plant import MISMATCHED
+from tests.few import slow
 
 VEHICLE = fp.vehicle("hehn2011")
 ROD = VEHICLE.replace(rod_inertia=2e-3)
@@ -481,7 +482,7 @@ CORRECTED = fp.laws.corrected(k_d=1, k_1=9, k_2=4)
 DOWN = fp.State(x_dot=(1, 0.5, 0), omega=(0.8, -0.3, 0.5), y=(0.6, 0, 0.8), y_dot=(0, 1.0, 0))
 
 
-@pytest.mark.parametrize(("control", "start"), [(law(push), TUMBLING), (law(calm), TUMBLING), (CORRECTED, DOWN)])
+@pytest.mark.parametrize(("control", "start"), [slow(law(push), TUMBLING), (law(calm), TUMBLING), (CORRECTED, DOWN)])
 def test_a_fast_sampled_flight_converges_to_the_ideal_one_with_order_one(control, start):
     # Also for a law with e₃ down: its thrust and moment are turned into rotor forces and back.
     ideal = fp.simulate(VEHICLE, control, start, 1.0, rtol=1e-11, plant="ideal")

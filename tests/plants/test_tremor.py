@@ -15,6 +15,7 @@ from flypend.laws.inverted_gains import CALM
 from flypend.plants import SUITES, Plant
 from flypend.plants.loop import Loop
 from flypend.plants.tremor import CALM_TREMOR, LIGHT, MOST_TREMOR, calm, too_noisy, tremor
+from tests.few import slow
 
 VEHICLE = fp.vehicle("hehn2011")
 UPRIGHT = fp.State(y=(0.0, 0.0, 1.0))
@@ -28,7 +29,7 @@ PLAIN = inverted().with_gains(inverted().gains_for(VEHICLE)).bind(VEHICLE)
 
 @pytest.mark.parametrize(
     ("sensors", "changes", "delay"),
-    [(MOCAP, {}, 0.0), (ONBOARD, {}, 0.0), (MOCAP, {"rod_length": 0.16, "rotor_lag": 0.06}, 0.02)],
+    [slow(MOCAP, {}, 0.0), (ONBOARD, {}, 0.0), (MOCAP, {"rod_length": 0.16, "rotor_lag": 0.06}, 0.02)],
     ids=["mocap", "onboard", "short rod, slow rotors, delay"],
 )
 def test_vehicles_tremble_as_theory_says(sensors, changes, delay):

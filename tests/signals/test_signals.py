@@ -218,11 +218,11 @@ def test_what_does_not_poll_is_ended_after_a_grace():
 
 
 def test_a_second_signal_ends_it_at_once_unless_it_is_an_echo():
-    stuck = "signals.PATIENCE = 10.0\n" + STUCK
+    stuck = "signals.PATIENCE = 5.0\n" + STUCK
     code, told, took = ended(stuck, (signal.SIGINT, 2 * signals.ECHO), (signal.SIGINT, 0.0))
     assert (code, told) == (130, "flypend: interrupted\n")
-    assert took < 10.0
-    assert ended(stuck, (signal.SIGTERM, 0.1), (signal.SIGTERM, 0.0))[2] > 10.0
+    assert took < 5.0
+    assert ended(stuck, (signal.SIGTERM, 0.1), (signal.SIGTERM, 0.0))[2] > 5.0
 
 
 def test_what_has_polled_has_all_the_time_that_it_needs():

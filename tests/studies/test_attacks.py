@@ -129,7 +129,7 @@ def attack_double_starts(number, folder):
 
 
 def test_of_two_that_start_at_once_one_flies_and_one_is_told(tmp_path):
-    attack_double_starts(3, tmp_path)
+    attack_double_starts(2, tmp_path)
 
 
 @pytest.mark.slow
@@ -172,7 +172,7 @@ def attack_kills(number, seed, folder):
 
 
 def test_random_kills_change_nothing(tmp_path):
-    attack_kills(3, 1, tmp_path)
+    attack_kills(2, 1, tmp_path)
 
 
 @pytest.mark.slow

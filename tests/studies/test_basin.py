@@ -11,6 +11,7 @@ from flypend.flight.tasks import SWAY, free_starts, random_hanging, touching
 from flypend.laws.lag import leading
 from flypend.studies import basin
 from flypend.studies.basin import measure_basin
+from tests.few import slow
 
 VEHICLE = fp.vehicle("hehn2011")
 
@@ -69,7 +70,7 @@ def test_what_the_theorem_does_not_model_is_refused():
     assert error.value.field == "starts"
 
 
-@pytest.mark.parametrize("lag", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("lag", [False, slow(True)])
 def test_on_a_hub_starts_are_free_and_what_does_not_enter_touches(lag):
     hub = VEHICLE.replace(mount="hub")
     found = measure_basin(hub, 100, 3, starts="hanging", lag=lag)

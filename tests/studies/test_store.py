@@ -16,6 +16,7 @@ from flypend.files.toml import toml_text
 from flypend.studies.sweep.bins import Runs
 from flypend.studies.sweep.claim import lock_name, lock_of
 from flypend.studies.sweep.store import existing
+from tests.few import few
 
 
 @pytest.fixture
@@ -192,7 +193,7 @@ def run_limited(folder, *, limit):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("limit", [0, 200, 500, 4000])
+@pytest.mark.parametrize("limit", few((0, 4000), (0, 200, 500, 4000)))
 def test_a_file_that_may_not_grow_is_one_line_and_what_is_there_goes_on(limit, tmp_path):
     """The limits end it at the lock or the metadata, at the first columns, and not at all."""
     done = run_limited(tmp_path, limit=limit)

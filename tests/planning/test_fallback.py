@@ -1,6 +1,7 @@
 """Until there is a plan a sketch of it flies: it goes the way of the plan, where the law may not."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import flypend as fp
 from flypend.flight.tasks import task_starts
 from flypend.model.state import SIZE
 from flypend.planning import fallback, receding_horizon
+from flypend.planning.dynamics import Units
 from flypend.planning.fallback import Fallback, Schedule
 from flypend.planning.problem import request
 from flypend.plants.equations import EquationsEngine
@@ -17,7 +19,10 @@ from flypend.plants.loop import Loop
 HEHN = fp.vehicle("hehn2011")
 HUB = HEHN.replace(mount="hub")
 STARTS = fp.random_starts(40, seed=3301)
-FIRST, WAIT, HORIZON = 0.012, 0.066, 12.5  # s, s, √(l/g)
+FIRST, ALONE, HORIZON = 0.012, 0.054, 12.5  # s, s, √(l/g)
+LEGS = (0.019, 0.0196)  # s: a stage each
+STAGE = fallback.stages_of(HORIZON)[1] * Units.of(HEHN).time  # s
+WAIT = FIRST + 2 * STAGE
 
 
 def waits_of(vehicle):
@@ -36,25 +41,27 @@ def asking(vehicle):
     return ask
 
 
-def sketched(waits, start, vehicle=HEHN, *, measured=False):
-    return waits.sketch(0.0, begin_of(start, vehicle), HORIZON, FIRST, WAIT, asking(vehicle), measured=measured)
+def sketched(waits, start, vehicle=HEHN, legs=LEGS, *, measured=False):
+    begin = begin_of(start, vehicle)
+    return waits.sketch(0.0, begin, HORIZON, FIRST, legs, ALONE, asking(vehicle), measured=measured)
+
+
+def strays(end, vehicle=HEHN):
+    """Return the excursion of the best plan from an `end` (24 + n,)."""
+    state, rotors = fp.State.from_packed(end[:SIZE]), np.clip(end[SIZE:], *vehicle.rotor_limits)
+    return fp.plan(vehicle, state, rotors=rotors, time_limit=120).excursion
 
 
 @pytest.fixture(scope="module")
 def ends():
     """Where sketches and the law lead from each start, (40, 24 + n) each."""
     waits = waits_of(HEHN)
-    both = [(sketched(waits, STARTS[i])[1], waits.until(0.0, begin_of(STARTS[i]), WAIT)[1]) for i in range(40)]
-    return [np.array(some) for some in zip(*both, strict=True)]
+    leads = [(sketched(waits, STARTS[i]), waits.until(0.0, begin_of(STARTS[i]), FIRST + ALONE)) for i in range(40)]
+    return [np.array([lead.there for lead in some]) for some in zip(*leads, strict=True)]
 
 
 def test_plans_after_a_sketch_stray_less_than_after_the_law(ends):
     """By a tenth on average over ten starts, and by a sixth from the worst."""
-
-    def strays(path_end):
-        state, rotors = fp.State.from_packed(path_end[:SIZE]), np.clip(path_end[SIZE:], *HEHN.rotor_limits)
-        return fp.plan(HEHN, state, rotors=rotors, time_limit=120).excursion
-
     best = np.array([fp.plan(HEHN, STARTS[i], time_limit=120).excursion for i in range(10)])
     by_sketch, by_law = (np.array([strays(end) for end in some[:10]]) / best for some in ends)
     assert np.mean(by_sketch) < 0.9 * np.mean(by_law)
@@ -70,55 +77,94 @@ def test_the_law_recovers_from_where_a_sketch_leads(ends):
 
 
 def test_commands_of_a_sketch_lead_where_it_says():
-    """The plant, in steps of a millisecond, ends where the pilot predicts it, in steps of a stage."""
-    waits = waits_of(HEHN)
-    schedule, there = sketched(waits, STARTS[0])
-    assert schedule.at(FIRST - 1e-3) is None
-    assert schedule.at(WAIT) is None
-    _, here = waits.until(0.0, begin_of(STARTS[0]), FIRST)
-    engine = EquationsEngine(HEHN)
-    engine.reset(here[:SIZE], here[SIZE:])
-    for k in range(54):
-        engine.step(schedule.at(FIRST + 1e-3 * k), 1e-3, np.zeros(6))
-    np.testing.assert_allclose(np.append(engine.packed, engine.rotors), there, atol=2e-3)
+    """The plant, in steps of a tenth of a millisecond, ends where the pilot predicts it, in steps of some."""
+    lead, begin = sketched(waits_of(HEHN), STARTS[0]), begin_of(STARTS[0])
+    np.testing.assert_array_equal(lead.schedule.at(0.0), begin[SIZE:])
+    assert lead.wait == pytest.approx(WAIT)
+    assert lead.schedule.at(-1e-4) is None
+    assert lead.schedule.at(WAIT) is None
+    engine, edges = EquationsEngine(HEHN), [0.0, FIRST, FIRST + STAGE, WAIT]
+    engine.reset(begin[:SIZE], begin[SIZE:])
+    for first, last in pairwise(edges):
+        for k in range(100):
+            h = (last - first) / 100
+            engine.step(lead.schedule.at(first + h * k), h, np.zeros(6))
+    np.testing.assert_allclose(np.append(engine.packed, engine.rotors), lead.there, atol=1e-4)
+
+
+def test_the_plan_begins_where_its_sketches_lead():
+    """Guesses are solved on from there: the first state is that, and equations of motion hold from it on."""
+    lead = sketched(waits_of(HEHN), STARTS[0])
+    own = Units.of(HEHN).states(4)
+    np.testing.assert_allclose(lead.found.states[0] * own, lead.there, atol=1e-12)
+    assert lead.found.lacks == ""
+    assert len(lead.found.commands) == fallback.stages_of(HORIZON)[0] - 2
+
+
+def test_each_leg_is_flown_by_what_the_one_before_found():
+    """All of the first sketch flies only where there are no legs."""
+    alone, legs = (sketched(waits_of(HEHN), STARTS[0], legs=some).schedule for some in ((), LEGS))
+    np.testing.assert_array_equal(alone.at(FIRST), legs.at(FIRST))
+    assert np.max(np.abs(alone.at(FIRST + STAGE) - legs.at(FIRST + STAGE))) > 0.01
+    assert alone.times[-1] == pytest.approx(FIRST + ALONE)
+
+
+def test_a_leg_after_which_the_rod_touches_is_not_flown(monkeypatch):
+    """The sketch before it flies on, of which that is known."""
+    start = task_starts(HUB, 3, 501)["random"][2]
+    room, asked = fallback.room, []
+
+    def refused(path, vehicle):
+        asked.append(len(path))
+        return room(path, vehicle) - (1.0 if len(path) == fallback.SUBSTEPS + 1 and len(asked) == 2 else 0.0)
+
+    monkeypatch.setattr(fallback, "room", refused)
+    lead = sketched(waits_of(HUB), start, HUB)
+    monkeypatch.setattr(fallback, "room", room)
+    first, both = (sketched(waits_of(HUB), start, HUB, legs).schedule for legs in ((), LEGS))
+    second = FIRST + STAGE
+    np.testing.assert_array_equal(lead.schedule.at(second), first.at(second))
+    assert not np.array_equal(lead.schedule.at(second), both.at(second))
 
 
 def test_a_sketch_under_which_the_rod_touches_is_not_flown(monkeypatch):
     waits, start = waits_of(HUB), task_starts(HUB, 3, 501)["random"][2]
-    schedule, there = sketched(waits, start, HUB)
-    assert schedule is not None
-    full = np.array([[HUB.rotor_limits[1], HUB.rotor_limits[0], HUB.rotor_limits[0], HUB.rotor_limits[1]]])
-    monkeypatch.setattr(fallback, "make_sketch", lambda _, h, begin, end: Schedule(begin, begin + 0.5, 1.0, full))
-    otherwise, elsewhere = sketched(waits, start, HUB)
-    assert otherwise is None
-    np.testing.assert_array_equal(elsewhere, waits.until(0.0, begin_of(start, HUB), WAIT)[1])
-    assert not np.array_equal(elsewhere, there)
+    lead = sketched(waits, start, HUB)
+    assert lead.found is not None
+    low, high = HUB.rotor_limits
+    full = [np.array([high, low, low, high])]
+    monkeypatch.setattr(fallback, "_schedule", lambda _, begin, end, stage: Schedule((begin, begin + 0.5), full))
+    otherwise = sketched(waits, start, HUB)
+    assert otherwise[0] is otherwise[3] is None
+    np.testing.assert_array_equal(otherwise.there, waits.until(0.0, begin_of(start, HUB), FIRST + ALONE).there)
+    assert not np.array_equal(otherwise.there, lead.there)
 
 
 @pytest.mark.parametrize("number", [1, 12])
 def test_from_a_start_nearer_than_its_clearance_a_sketch_flies_that_keeps_the_rod_as_far(number):
-    """Constant forces flew there, from where the best plan strays 5.7 and 3.1 times as far as from the start."""
+    """The law or constant forces lead where the best plan strays four and three times as far as from the start."""
     start = task_starts(HUB, 26, seed=501)["random"][number]
     waits, begin = waits_of(HUB), begin_of(start, HUB)
     assert fallback.room(begin[None], HUB) < 0.01
-    found, there = sketched(waits, start, HUB)
-    assert found is not None
-    instead, elsewhere = waits.until(0.0, begin, WAIT)
-    assert instead is not None
-
-    def strays(end):
-        state, rotors = fp.State.from_packed(end[:SIZE]), np.clip(end[SIZE:], *HUB.rotor_limits)
-        return fp.plan(HUB, state, rotors=rotors, time_limit=120).excursion
-
-    assert strays(there) < strays(elsewhere) / 2
+    lead, instead = sketched(waits, start, HUB), waits.until(0.0, begin, FIRST + ALONE)
+    assert lead.found is not None
+    assert strays(lead.there, HUB) < strays(instead.there, HUB) / 2
 
 
 def test_a_sketch_that_is_late_is_not_flown(monkeypatch):
     waits = waits_of(HEHN)
-    monkeypatch.setattr(fallback.time, "process_time", iter([0.0, 0.5]).__next__)
-    found, there = sketched(waits, STARTS[0], measured=True)
-    assert found is None
-    np.testing.assert_array_equal(there, waits.until(0.0, begin_of(STARTS[0]), WAIT)[1])
+    monkeypatch.setattr(fallback, "process_time", iter([0.0, 0.5]).__next__)
+    lead = sketched(waits, STARTS[0], measured=True)
+    assert lead.schedule is lead.found is None
+    np.testing.assert_array_equal(lead.there, waits.until(0.0, begin_of(STARTS[0]), FIRST + ALONE).there)
+
+
+def test_a_leg_that_is_late_is_not_flown(monkeypatch):
+    waits = waits_of(HEHN)
+    first = sketched(waits, STARTS[0], legs=())
+    monkeypatch.setattr(fallback, "process_time", iter([0.0, 0.0, 0.0, 0.5, 0.5, 0.5]).__next__)
+    lead = sketched(waits, STARTS[0], measured=True)
+    np.testing.assert_array_equal(lead.schedule.at(FIRST + STAGE), first.schedule.at(FIRST + STAGE))
 
 
 def test_after_a_failure_there_is_no_sketch(monkeypatch):

@@ -239,7 +239,7 @@ def test_stationarity_is_no_matter_of_damping():
             states[:], commands[:] = found.states[..., None], found.commands[..., None]
             solver = Solver(compiled, problem, states, commands, settings)
             solver.damp(np.full(8, damping))
-            solver.step(slice(0, problem.stages))
+            solver.step()
             changes[settings, damping] = solver.change[0]
     assert changes[FINAL, 1e5] == changes[FINAL, FINAL.plain]
     assert changes[DEFAULT, 1e5] < 0.5 * changes[DEFAULT, FINAL.plain]

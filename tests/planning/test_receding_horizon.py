@@ -13,7 +13,6 @@ from flypend.geometry import norm
 from flypend.planning import real_time as real_time_module
 from flypend.planning import receding_horizon
 from flypend.planning.dynamics import Units
-from flypend.planning.fallback import make_sketch
 from flypend.planning.inequalities import BASE, OWN
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
@@ -146,8 +145,8 @@ def test_it_plans_flies_and_hands_over(nominal):
     result = fp.metrics(run)
     assert result.success
     assert modes(flown) == ["planned", "hovering"]
-    # What computing is charged: 12 ms of sketch and 53 of plan.
-    assert flown.changes[0][0] == pytest.approx(0.066, abs=1.1 * LEAST_DELAY)
+    # What computing is charged: 11.9 ms of sketch and two stages of plan, 51.9 ms; then the next command is due.
+    assert flown.changes[0][0] == pytest.approx(0.052, abs=1.1 * LEAST_DELAY)
     assert result.excursion < 1.05 * flown.plans[0].excursion
     assert result.excursion < 0.5 * fp.metrics(fp.simulate(HEHN, LAW, STARTS[1], 6)).excursion
 
@@ -318,11 +317,9 @@ def test_what_hovers_and_breaks_a_constraint_is_nearer_to_a_plan_than_what_never
 
 def test_a_sketch_does_not_know_of_walls():
     """Four iterations that do choose the way worse."""
-    walled, free = (
-        make_sketch(request(HEHN, STARTS[1], "excursion", np.zeros(3), kept=kept), 12.5, 0.0, 0.1)
-        for kept in (fp.Constraints(floor=-0.8), fp.Constraints())
-    )
-    assert np.array_equal(walled.commands, free.commands)
+    walled, free = (flown_by(fp.nmpc(HEHN, floor=floor), STARTS[1], 0.04)[0] for floor in (-0.8, None))
+    unaware = walled.t < 0.012 + 0.019  # the first stage of the sketch: without walls, guesses are solved on meanwhile
+    np.testing.assert_array_equal(walled.packed[unaware], free.packed[unaware])
 
 
 def test_places_are_those_of_the_world_wherever_the_reference_is():

@@ -1,16 +1,19 @@
-"""What flies until there is a plan: the law, then a sketch of the plan; or constant rotor forces, to touch nothing.
+"""What flies until there is a plan: sketches of it, or the law; or constant rotor forces, to touch nothing.
 
 The law does not know which way a plan will go, and where the optimum is small, going the other way is most of the
-excursion. A few iterations from all guesses tell the way. Nor does the law guarantee the clearance of the mount.
-Constant forces may: all rotors at a limit or in hover, or one side of the pivot at one limit, the other at the other.
+excursion. A few iterations from all guesses tell the way; until then rotors are held. While the best guess is flown,
+stage by stage, those that go on are solved on from where it leads, until it is the plan. Nor does the law guarantee the
+clearance of the mount. Constant forces may: all rotors at a limit or in hover, or one side of the pivot at one limit,
+the other at the other.
 """
 
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Callable
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from time import process_time
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,21 +22,23 @@ from numpy.typing import NDArray
 from flypend import signals
 from flypend.board.computer import SteppedBoard
 from flypend.compile.llvm.stagewise import WIDTH
-from flypend.errors import InputError
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
 from flypend.model.state import SIZE
 from flypend.planning.feedback import stepping
 from flypend.planning.problem import Request
-from flypend.planning.search import stages_of, together
+from flypend.planning.search import Found, Relay, stages_of, work
 from flypend.plants.loop import Loop
 
-DIRECTIONS, STEPS = 8, 12
+DIRECTIONS, STEPS, SUBSTEPS = 8, 12, 4
 BEYOND = 0.5  # of the wait, so much longer the rod has to keep away: a plan must be able to begin
 
 Array = NDArray[np.float64]
-# How many guesses go on after how many iterations of a sketch, guesses, and iterations; see `search.work`.
-SKETCH = ({1: 3}, WIDTH, 4)
+# How many guesses go on after how many iterations; iterations until the first sketch, and of legs, each of which takes
+# a stage on hehn2011; and what they are in iterations of single guesses. More before the first sketch come too late,
+# fewer choose worse.
+ROUNDS, LEGS = {1: 3, 13: 2}, (4, 9, 14)
+CHARGES = np.diff([work(ROUNDS, WIDTH, int(done)) for done in np.cumsum((0, *LEGS))]).tolist()
 SOFT = 0.1  # first weight of being too near: a few iterations must know what the rod may not touch
 NEARER = 0.75  # a sketch may come nearer than the clearance if it keeps so much of what the rod keeps without it
 LONGEST = 0.6  # √(l/g), for which a sketch, which knows no feedback, may fly
@@ -90,30 +95,40 @@ def _fly_command(vehicle: Vehicle, state: Array, rotors: Array, command: Array, 
 
 
 class Schedule(NamedTuple):
-    """Commands (k, n), N, that fly from `begin` to `end` (s), each for a `stage` (s)."""
+    """Commands (k, n), N, each from one of `times` (k + 1,), s, to the next."""
 
-    begin: float
-    end: float
-    stage: float
-    commands: Array
+    times: Sequence[float]
+    commands: Sequence[Array]
 
     def at(self, t: float) -> Array | None:
         """Return the command (n,), N, at `t` (s); None where the law flies."""
-        if not self.begin - 1e-9 <= t < self.end - 1e-9:
-            return None
-        command: Array = self.commands[min(int((t - self.begin) / self.stage + 1e-9), len(self.commands) - 1)]
-        return command
+        place = bisect_right(self.times, t + 1e-9)
+        return self.commands[place - 1] if 0 < place < len(self.times) else None
+
+    def then(self, later: Schedule) -> Schedule:
+        """Return these commands until the `later` ones begin, and then those."""
+        place = bisect_left(self.times, later.times[0] - 1e-9)
+        return Schedule([*self.times[:place], *later.times], [*self.commands[:place], *later.commands])
 
     def flown(self, vehicle: Vehicle, begin: Array) -> Array:
-        """Return states and rotor forces (k, 24 + n) from `begin` (24 + n,) to the end."""
-        step, path, passed = stepping(vehicle), [begin], 0.0
-        for command in self.commands:
-            h = min(self.stage, self.end - self.begin - passed)
-            if h < 1e-9:
-                break
-            path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h))
-            passed += h
+        """Return states and rotor forces (SUBSTEPS · k + 1, 24 + n) from `begin` (24 + n,) to the end."""
+        step, path = stepping(vehicle), [begin]
+        for command, h in zip(self.commands, np.diff(self.times) / SUBSTEPS, strict=True):
+            for _ in range(SUBSTEPS):
+                path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h))
         return np.array(path)
+
+
+class Lead(NamedTuple):
+    """What leads to a plan: a `schedule`, or the law without one, for a `wait` (s), to `there` (24 + n,).
+
+    If guesses were solved on all the way, `found` begins there.
+    """
+
+    schedule: Schedule | None
+    there: Array
+    wait: float
+    found: Found | None = None
 
 
 class Fallback:
@@ -123,43 +138,60 @@ class Fallback:
         self._vehicle, self._clearance = by_law.vehicle, clearance
         self._loop = replace(by_law, plant=by_law.sampled.replace(sensors=None))
 
-    def until(self, t: float, begin: Array, wait: float) -> tuple[Schedule | None, Array]:
+    def until(self, t: float, begin: Array, wait: float) -> Lead:
         """Return what flies instead of the law for a `wait` (s) from `t` on, if it must, and where it leads.
 
-        `begin` and what is returned are states and rotor forces (24 + n,).
+        `begin` are state and rotor forces (24 + n,).
         """
-        _, schedule, there = self._instead(t, begin, wait)
-        return schedule, there
+        return self._instead(t, begin, wait)[1]
 
-    def _instead(self, t: float, begin: Array, wait: float) -> tuple[float, Schedule | None, Array]:
+    def _instead(self, t: float, begin: Array, wait: float) -> tuple[float, Lead]:
         """Return what the rod keeps, m, before the answer of `until`."""
         path = self._under_law(t, begin, wait)
         if (kept := self._kept(path)) < self._clearance:
             command, better, there = evasion(self._vehicle, begin[:SIZE], begin[SIZE:], wait)
             if better > kept:
-                return better, Schedule(t, math.inf, math.inf, command[None]), there
-        return kept, None, path[-1]
+                return better, Lead(Schedule((t, math.inf), (command,)), there, wait)
+        return kept, Lead(None, path[-1], wait)
 
     def sketch(
-        self, t: float, begin: Array, horizon: float, first: float, wait: float, ask: Ask, *, measured: bool
-    ) -> tuple[Schedule | None, Array]:
-        """Return as `until`, but with a sketch of a plan with a `horizon` (√(l/g)) that is there after `first` (s).
+        self, t: float, begin: Array, horizon: float, first: float, legs: Sequence[float], alone: float, ask: Ask,
+        *, measured: bool,
+    ) -> Lead:  # fmt: skip
+        """Return a sketch of a plan with a `horizon` (√(l/g)) that is there after `first` (s), and what it becomes.
 
-        There is none if the rod would come too near to what it may touch, or if the time is `measured` and it is late.
+        Until then rotors are held. In each of `legs`, whole stages of at least so many seconds, guesses are solved on
+        from where the best so far leads by its end. Without legs the sketch flies for as long as a plan takes `alone`
+        (s). Nothing that is `measured` and late is flown. There is no sketch if the rod would come too near to what it
+        may touch; then as `until`. Raises InputError as `ask` does.
         """
-        path, begun = self._under_law(t, begin, first), time.process_time()
-        try:
-            found = make_sketch(ask(t + first, path[-1]), horizon, t + first, t + wait)
-        except InputError:
-            return self.until(t, begin, wait)
-        late = measured and time.process_time() - begun > first
-        path = np.concatenate([path, found.flown(self._vehicle, path[-1])])
-        kept = -math.inf if late else self._kept(path)
-        if kept >= self._clearance:
-            return found, path[-1]
-        # From a start that is nearer than that, constant forces that keep away best lead nowhere.
-        least, schedule, there = self._instead(t, begin, wait)
-        return (found, path[-1]) if kept >= NEARER * least else (schedule, there)
+        held = Schedule((t, t + first), (np.clip(begin[SIZE:], *self._vehicle.rotor_limits),))
+        path, begun = held.flown(self._vehicle, begin), process_time()
+        asked = ask(t + first, path[-1])
+        # Walls, which so few iterations cannot keep, would only choose the way worse.
+        relay = Relay(asked.unconstrained() if asked.kept.loose else asked, horizon, ROUNDS, SOFT)
+        found, stage, force = relay.improve(LEGS[0]), stages_of(horizon)[1] * asked.units.time, asked.units.force
+        counts = [math.ceil(leg / stage - 1e-9) for leg in legs]
+        now, wait = t + first, first + (stage * sum(counts) if counts else alone)
+        sketch = _schedule(found.commands * force, now, t + wait, stage)
+        ahead = sketch.flown(self._vehicle, path[-1])
+        late = measured and process_time() - begun > first
+        kept = -math.inf if late else self._kept(np.concatenate([path, ahead]))
+        if kept < self._clearance:
+            # From a start that is nearer than that, constant forces that keep away best lead nowhere.
+            least, instead = self._instead(t, begin, first + alone)
+            if kept < NEARER * least:
+                return instead
+        flies, passed = held.then(sketch), 0
+        for count, iterations in zip(counts, LEGS[1:], strict=False):
+            now, passed, ahead, begun = now + stage * count, passed + count, ahead[SUBSTEPS * count :], process_time()
+            relay.begin_at(passed, ask(now, ahead[0]).start)
+            found = relay.improve(iterations)
+            sketch = _schedule(found.commands * force, now, t + wait, stage)
+            path, late = sketch.flown(self._vehicle, ahead[0]), measured and process_time() - begun > stage * count
+            if not late and self._kept(path) >= min(self._clearance, self._kept(ahead)):
+                flies, ahead = flies.then(sketch), path
+        return Lead(flies, ahead[-1], wait, found if counts else None)
 
     def _kept(self, path: Array) -> float:
         return math.inf if self._vehicle.mount == "gimbal" else room(path, self._vehicle)
@@ -177,11 +209,7 @@ class Fallback:
         return np.array(path)
 
 
-def make_sketch(asked: Request, horizon: float, begin: float, end: float) -> Schedule:
-    """Return what a few iterations from all guesses make of what is `asked`, to fly from `begin` to `end` (s).
-
-    They do not know of walls, which so few cannot keep: they would only choose the way worse.
-    """
-    rounds, _, iterations = SKETCH
-    found = together(asked.unconstrained() if asked.kept.loose else asked, horizon, math.inf, iterations, rounds, SOFT)
-    return Schedule(begin, end, stages_of(horizon)[1] * asked.units.time, found.commands * asked.units.force)
+def _schedule(commands: Array, begin: float, end: float, stage: float) -> Schedule:
+    """Return the first of `commands` (k, n), each for a `stage`, from `begin` to `end` (s)."""
+    count = math.ceil((end - begin) / stage - 1e-9)
+    return Schedule([*(begin + stage * np.arange(count)).tolist(), end], [*commands[:count]])

@@ -169,7 +169,7 @@ class RealTime:
         solver.restart(stages, state[:, None])
         farther = solver.shared[0] > been**2
         solver.insist(SHARED, self._of_excursion * (1.0 if farther else SUNK), 0)
-        length, most = solver.step(stages)
+        length, most = solver.step()
         if length == most:
             solver.damp(np.maximum(SETTINGS.better * solver.damping, SETTINGS.least_damping))
         elif not length:

@@ -29,15 +29,16 @@ from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.dynamics import Units
-from flypend.planning.fallback import LONGEST, SKETCH, Fallback, Schedule
+from flypend.planning.fallback import CHARGES, LONGEST, Fallback, Schedule
 from flypend.planning.inequalities import WALLS
 from flypend.planning.model_error import ModelError
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import STAGES_PER_UNIT, Request, request
 from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, in_weights, upright
 from flypend.planning.result import Plan
-from flypend.planning.search import SOFT_LAST, work
+from flypend.planning.search import SOFT_LAST, Found, stages_of, work
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
+from flypend.planning.verdict import plans_of
 from flypend.plants.loop import Loop
 
 Array = NDArray[np.float64]
@@ -85,8 +86,8 @@ def nmpc(
     """Return a controller that plans the way to inverted hover in flight, and again whenever it is thrown off.
 
     It is a flight computer. At the start, and whenever the rod is about to fall, it plans from the state in which it
-    will be when the plan is ready; until then the inverted law flies. A plan is flown with feedback, and the rest of it
-    is solved again in every stage, by one real-time iteration. In hover the inverted law takes over.
+    will be when the plan is ready; until then a sketch of it flies, or the inverted law. A plan is flown with feedback,
+    and the rest of it is solved again in every stage, by one real-time iteration. In hover the inverted law takes over.
     docs/planning/nmpc.md says who flies when.
 
     Parameters
@@ -173,6 +174,11 @@ class Receding:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
         there = _moving(self.reference)(0.0)[:3]
         request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
+
+    @property
+    def limited(self) -> bool:
+        """Whether there are constraints other than the clearance."""
+        return bool(self.constraints.given.keys() - {"clearance"})
 
     @property
     def mount(self) -> Constraints:
@@ -317,28 +323,31 @@ class Pilot(Boards):
     def _begin(self, t: float, state: Array, rotors: Array) -> Coming:
         """Plan from where the vehicle will be by the time the plan is there, and a sketch before it, which is flown.
 
-        After a failure there is no sketch, as only the law is known to lead somewhere, nor for a slow computer.
+        The sketch becomes the plan, but with constraints, which take a race of their own. After a failure there is no
+        sketch, as only the law is known to lead somewhere, nor for a slow computer.
         """
         horizon, iterations = ATTEMPTS[self._failures]
         each = MEASURED_AT_FIRST if self._common.computing is None else self._common.computing
         each *= OF_GUESS * horizon * STAGES_PER_UNIT / OF_STAGES * self._patience
-        first, given = (each * work(*much) for much in (SKETCH, (ROUNDS, WIDTH, iterations)))
-        given *= 1 + self._common.kept(state[:3], self._where(t)[:3]).loose
-        if given > horizon * self._units.time:
+        alone = each * work(ROUNDS, WIDTH, iterations) * (1 + self._common.kept(state[:3], self._where(t)[:3]).loose)
+        if alone > horizon * self._units.time:
             return Coming(None, None, "a plan would take longer than its flight", t, t, None, self._error.scales)
-        first *= not self._failures and given <= LONGEST * self._units.time
-        given, begun = first + given, time.process_time()
-        here = np.append(state, rotors)
-        if first:
-            measured = self._common.computing is None
-            schedule, there = self._fallback.sketch(t, here, horizon, first, given, self._ask, measured=measured)
+        here, begun, measured = np.append(state, rotors), time.process_time(), self._common.computing is None
+        if self._failures or alone > LONGEST * self._units.time:
+            lead = self._fallback.until(t, here, alone)
         else:
-            schedule, there = self._fallback.until(t, here, given)
-        found, asked, why = self._plan(t + given, there, horizon, iterations)
-        took = time.process_time() - begun if self._common.computing is None else given
-        if took > given:
+            first, *legs = (each * charge for charge in CHARGES)
+            legs = [] if self._common.limited else legs
+            try:
+                lead = self._fallback.sketch(t, here, horizon, first, legs, alone, self._ask, measured=measured)
+            except InputError:
+                lead = self._fallback.until(t, here, first + alone)
+        found, asked, why = self._plan(t + lead.wait, lead.there, horizon, iterations, lead.found)
+        took = time.process_time() - begun if measured else lead.wait
+        if took > lead.wait:
             found, why, self._patience = None, "the plan is late", LATE * self._patience
-        return Coming(found, asked, why, t + max(took, given), t + given, schedule, self._error.scales)
+        due, begin = t + max(took, lead.wait), t + lead.wait
+        return Coming(found, asked, why, due, begin, lead.schedule, self._error.scales)
 
     def _ask(self, t: float, here: Array) -> Request:
         """Return the request for a plan from state and rotor forces `here` (24 + n,) at `t` (s). Raises InputError.
@@ -356,13 +365,21 @@ class Pilot(Boards):
                 raise
             return ask(self._common.mount)
 
-    def _plan(self, t: float, here: Array, horizon: float, iterations: int) -> tuple[Plan | None, Request | None, str]:
-        """Return a plan from `here` as in `_ask`, what it answers, and why there is none."""
+    def _plan(
+        self, t: float, here: Array, horizon: float, iterations: int, begun: Found | None
+    ) -> tuple[Plan | None, Request | None, str]:
+        """Return a plan from `here` as in `_ask`, what it answers, and why there is none.
+
+        It is what was `begun`, if that is given.
+        """
         try:
             asked = self._ask(t, here)
         except InputError as error:
             return None, None, str(error)
-        found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
+        if begun is None:
+            found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
+        else:
+            (found,) = plans_of([asked], [begun], stages_of(horizon)[1] * len(begun.commands))
         its = asked.structure
         if its.soft:
             asked.numbers[-2] = SOFT_LAST if its.mounted or its.gates else WALL

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -67,11 +68,15 @@ class Race:
         What the lanes are to keep although their solvers do not know of it.
     settings : Settings, optional
         Numbers of the method.
+    closed : bool
+        Whether gaps are closed by the time of a round. Where they are not, they are most of the cost, and the guess of
+        least excursion and effort goes on as well.
     """
 
     def __init__(
         self, compiled: Programs, problem: Problem, states: Array, commands: Array,
         rounds: Mapping[int, int] = ROUNDS, kept: Request | None = None, settings: Settings = DEFAULT,
+        *, closed: bool = True,
     ) -> None:  # fmt: skip
         scratch, arrays = Scratch(compiled, problem.stages, 1), (*problem.arrays, states, commands)
         self._solvers, self._lacks = [], []
@@ -81,7 +86,7 @@ class Race:
             self._solvers.append(Solver(compiled, alone, begin, steered, settings, scratch))
             self._lacks += [_lack(kept, alone, begin, steered)] if kept else []
         self._running = list(range(len(self._solvers)))
-        self._iterations, self._rounds = 0, rounds
+        self._iterations, self._rounds, self._closed, self._stages = 0, rounds, closed, problem.stages
 
     def improve(self) -> None:
         """Do one iteration of each that is not given up."""
@@ -89,9 +94,17 @@ class Race:
             self._solvers[i].improve()
         self._iterations += 1
         if self._iterations in self._rounds:
-            cost = np.nan_to_num(self.measures.cost[self._running], nan=np.inf)
-            best = np.argsort(cost, kind="stable")[: self._rounds[self._iterations]]
-            self._running = sorted(self._running[i] for i in best)
+            cost, value = (np.nan_to_num(each[self._running], nan=np.inf) for each in self.measures[:2])
+            best = np.argsort(cost, kind="stable")
+            if not self._closed:
+                nearest = np.argmin(value)
+                best = np.array([nearest, *best[best != nearest]])
+            self._running = sorted(self._running[i] for i in best[: self._rounds[self._iterations]])
+
+    def begin_at(self, stage: int, state: Array) -> None:
+        """Go on from a `stage`, which begins at `state` (24 + n,), own units."""
+        for i in self._running:
+            self._solvers[i].restart(slice(stage, self._stages), state[:, None])
 
     def insist(self, place: int, weight: float, on: Any) -> None:
         """See `Solver`."""
@@ -312,6 +325,33 @@ def together(
     given_up = ({} if asked.structure.soft else ROUNDS) if rounds is None else rounds
     race = Race(_alone(asked), *make_guesses(jobs, horizon), given_up, kept)
     return _raced(race, Watch(jobs, range(WIDTH), most, first), asked.structure.soft, deadline)
+
+
+class Relay:
+    """A race of all guesses for what is `asked` with a `horizon` (√(l/g)), in legs that begin ever later.
+
+    `rounds` as in `Race`, which is early; `soft` as in `Watch`.
+    """
+
+    def __init__(self, asked: Request, horizon: float, rounds: Mapping[int, int], soft: float) -> None:
+        self._jobs = [Job(asked, style) for style in range(WIDTH)]
+        self._race = Race(_alone(asked), *make_guesses(self._jobs, horizon), rounds, closed=False)
+        self._asked, self._soft = asked, soft
+
+    def improve(self, iterations: int) -> Found:
+        """Do so many `iterations`, and return the best of this leg; the cheapest, if none reaches its end."""
+        watch = Watch(self._jobs, range(WIDTH), iterations, self._soft)
+        self._soft *= SOFT_GROWTH**iterations
+        found = _raced(self._race, watch, self._asked.structure.soft, math.inf)
+        if not found.lacks:
+            return found
+        lane = int(np.argmin(np.nan_to_num(self._race.measures.cost, nan=np.inf)))
+        states, commands = self._race.iterate(lane)
+        return replace(found, states=states, commands=commands, style=lane)
+
+    def begin_at(self, stage: int, state: Array) -> None:
+        """Begin a leg at a `stage`, with the `state` (24 + n,), own units."""
+        self._race.begin_at(stage, state)
 
 
 def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Watch | None = None) -> Found:

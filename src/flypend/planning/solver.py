@@ -209,7 +209,7 @@ class Solver:
         scratch: Scratch | None = None,
     ) -> None:  # fmt: skip
         self._k, self._problem, self._set = programs, problem, settings
-        self._of_shared = programs.layout.of_shared
+        self._of_shared, self._stages = programs.layout.of_shared, slice(0, problem.stages)
         N, k, width = problem.stages, programs.inequalities, states.shape[-1]
         lanes = partial(some_lanes, width=width)
         self.states, self.commands = states, commands
@@ -284,7 +284,12 @@ class Solver:
 
     def iterate(self, lane: int) -> tuple[Lanes, Lanes]:
         """Return copies of the states (stages + 1, 24 + n) and commands (stages, n) of a `lane`."""
-        return self.states[:, :, lane].copy(), self.commands[:, :, lane].copy()
+        return self.states[self._after, :, lane].copy(), self.commands[self._stages, :, lane].copy()
+
+    @property
+    def _after(self) -> slice:
+        """Where states of the stages are, with the last."""
+        return slice(self._stages.start, self._stages.stop + 1)
 
     @property
     def shared(self) -> Lanes:
@@ -297,10 +302,9 @@ class Solver:
         """What the lanes have come to."""
         numbers, asked = self._problem.numbers, self._asked[0]
         cost = self.merit + (asked - numbers[SHARED]) * self._shared[0]
-        excursion = np.sqrt(np.max(self._squared(self.states, slice(None)), axis=0))
-        value = (
-            asked * excursion**2 + numbers[EFFORT] * np.sum((self.commands - 1) ** 2, axis=(0, 1)) / 2 + self._wished
-        )
+        excursion = np.sqrt(np.max(self._squared(self.states, self._after), axis=0))
+        effort = numbers[EFFORT] * np.sum((self.commands[self._stages] - 1) ** 2, axis=(0, 1)) / 2
+        value = asked * excursion**2 + effort + self._wished
         stuck = self._damping[1] >= self._set.most_damping
         return Measures(cost, value, self.lack, self.gap, self.end, self._mu[0], stuck, self.change)
 
@@ -322,22 +326,22 @@ class Solver:
         np.negative(self._errors, out=self._offset)
 
     def restart(self, stages: slice, state: Lanes) -> None:
-        """Let `stages` begin at `state` (24 + n, lanes): the ball holds all states, and slacks are theirs."""
-        self.states[stages.start] = state
+        """Go on with `stages` only, from `state` (24 + n, lanes): the ball holds all states, and slacks are theirs."""
+        self._stages, self.states[stages.start] = stages, state
         self._fit(stages, slice(None))
         self._values[False](stages.start, stages.stop - stages.start)
 
     def improve(self) -> None:
-        """Do one iteration on all stages, and adapt damping, barrier and weights to its step."""
-        whole, early = slice(0, self._problem.stages), np.minimum(1.0, self._mu[0] / self._set.relief)
+        """Do one iteration, and adapt damping, barrier and weights to its step."""
+        early = np.minimum(1.0, self._mu[0] / self._set.relief)
         self._problem.numbers[SHARED] = self._asked[0] / (1 + early * self._shared[0])
-        self._adapt(self.step(whole)[0])
+        self._adapt(self.step()[0])
 
-    def step(self, stages: slice) -> tuple[Lanes, Lanes]:
-        """Take a step on some `stages`; return its length (lanes,), 0 where the merit did not fall, and the most."""
+    def step(self) -> tuple[Lanes, Lanes]:
+        """Take a step; return its length (lanes,), 0 where the merit did not fall, and the most."""
         with np.errstate(all="ignore"):
-            self._solve(stages)
-            return self._search(stages)
+            self._solve(self._stages)
+            return self._search(self._stages)
 
     def _solve(self, stages: slice) -> None:
         """Solve the linear-quadratic problem about what is known."""

@@ -1,4 +1,4 @@
-"""What a room offers although a room above it makes it: `flypend`, which stands above all of them, says where it is."""
+"""Laws that a room offers by name although a room above it makes them: `flypend`, above all rooms, registers them."""
 
 from __future__ import annotations
 

@@ -50,8 +50,8 @@ def check(
 ) -> None:
     """Report what VEHICLE, a name or a TOML file, can do: hover, lean, swing-up, level and random starts, margins.
 
-    Each task gets a grade: flights succeed from all, most (at least 90 %), some or none of its starts. The exit code is
-    1, with the reason, if a law cannot even hover. The default law is inverted.
+    Each task gets a grade: flights succeed from all, most (at least 90 %), some or none of its starts. If a law cannot
+    even hover, the exit code is 1 and the reason is printed. The default law is inverted.
     """
     from flypend import errors, model
     from flypend.files.staging import check_writable

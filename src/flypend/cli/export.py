@@ -35,7 +35,8 @@ def export_c(
 ) -> None:
     """Export the flight computer of a law as C99: observer, prediction, law, allocation, lead; see docs/export.
 
-    With nmpc, export that of the inverted law, and beside it a plan from hanging at rest that is improved in flight.
+    With nmpc, the flight computer is that of the inverted law. Beside it comes a plan from hanging at rest, with code
+    that improves the plan in flight.
     """
     from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS

@@ -93,9 +93,9 @@ def identify(
 ) -> None:
     """Find a machine's numbers, with bands, in LOG, a CSV, ULog, µSD or MCAP file of a flight with the rod hanging.
 
-    --vehicle is the guess: its mass is taken as weighed, its rotors' positions, spins and limits as known. The
-    columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry, rz, vbat.
-    For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag.
+    --vehicle is the guess. Its mass counts as weighed; the positions, spins and limits of its rotors are taken as
+    exact. The columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry,
+    rz, vbat. For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag.
     """
     from flypend import model
     from flypend.errors import InputError

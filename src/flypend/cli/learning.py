@@ -28,8 +28,8 @@ def learn(
 ) -> None:
     """Learn a law for VEHICLE: a small network that imitates the inverted law and then improves on it.
 
-    Writes the training curve, and the policy, which the law learned flies if its gain policy names the file. After an
-    interruption, the same command resumes, with the same result.
+    Writes the training curve and the policy. To fly the policy, use its file as --law. After an interruption, the same
+    command resumes, with the same result.
 
     With --bands, training flies machines drawn from the bands of VEHICLE, with late commands; with --sensors, the
     network sees states with the errors of an estimator. The result is compared with the inverted law on other such

@@ -8,13 +8,13 @@ columns (9), or its first two (6); angular velocity in the body frame (3); rod d
 in 0.1, 0.2 and 0.4 s, relative to where it is (9). A task may show more: `Task.shown`. With `attitude="body"` all
 vectors are in the body frame, and the vertical (3) stands for R.
 
-With `sensors` they are what the flight computer's estimator says; see `Environment`.
+With `sensors`, observations are the estimates of the flight computer; see `Environment`.
 
 **Actions** are m numbers in [−1, 1]: see `Environment`.
 
 **Ends.** A world terminates when its task says so, when the rod touches the vehicle or leaves its cup, and when its
-state is not finite or beyond all bounds, which absurd actions achieve for their own world alone; it is truncated after
-the task's duration.
+state is not finite or out of bounds. Extreme actions may cause that, but only in their own world. A world is truncated
+after the task's duration.
 """
 
 from __future__ import annotations

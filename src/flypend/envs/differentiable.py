@@ -46,9 +46,9 @@ class Stepped(NamedTuple):
 class DifferentiableWorlds:
     """Worlds as a function (memory, actions) → (memory, observations, rewards, ended), with derivatives.
 
-    The function is the step of `VectorWorlds`, to roundoff, but that it keeps nothing and begins nothing anew: a world
-    that has ended goes on, until the caller replaces its row of the memory. A world whose state is not finite or beyond
-    all bounds is lost: it stays as it was, and passes no gradient.
+    The function equals the step of `VectorWorlds` to roundoff. But it stores nothing and resets nothing: a world that
+    has ended goes on until the caller replaces its row of the memory. A world whose state is not finite or out of
+    bounds is lost: it stays as it was, and passes no gradient.
 
     A row of `memory` (count, size), float64, is a world: the number of actions since its beginning, state (24), rotor
     forces (n), N, the last action (m), commands on their way, wind, timing, what `randomise` drew, and the goal. Rows

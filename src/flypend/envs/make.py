@@ -56,12 +56,12 @@ def environment(
     duration: float | None = None,
     **about: Any,
 ) -> Environment:
-    """Return what the arguments of an environment describe.
+    """Return the environment that the arguments describe.
 
     Parameters
     ----------
     task : str or Task
-        "balance", "swing_up", "track", "catch_in_cup", or a task of one's own.
+        "balance", "swing_up", "track", "catch_in_cup", or a task of your own.
     vehicle : str, Path or Vehicle, optional
         Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional
@@ -71,8 +71,8 @@ def environment(
     rate : float, optional
         Actions per second; default that of the task, or 100 Hz.
     randomise : Randomisation, dict or "bands", optional
-        What differs from world to world: see `flypend.envs.Randomisation`, whose `within_bands` "bands" stands for;
-        default what the task says, or nothing.
+        What differs from world to world: see `flypend.envs.Randomisation`. "bands" stands for its `within_bands`.
+        Default that of the task, or nothing.
     duration : float, optional
         Seconds after which a world is cut off; default that of the task.
     about

@@ -35,12 +35,12 @@ LONGEST = 1e9  # s, of an episode
 
 @dataclass(frozen=True, eq=False)
 class Environment:
-    """What worlds are made of.
+    """The description from which worlds are made.
 
     Parameters
     ----------
     task : Task
-        What is wanted.
+        The task: where worlds begin, the goal, the reward and the end.
     vehicle : Vehicle
         The nominal vehicle, with its mount.
     plant : Plant
@@ -48,27 +48,27 @@ class Environment:
     rate : float
         Actions per second, Hz; the plant's rate is a multiple of it.
     action : "rotors", "wrench" or "rates"
-        What an action commands, each number in [−1, 1]: forces of the rotors, from the least to the largest; thrust
-        from none to the largest and moments, allocated within the limits; or thrust and body rates up to 12 rad/s, by
-        the plant's inner loop.
+        What an action commands; each of its numbers is in [−1, 1]. "rotors": the forces of the rotors, from their
+        minimum to their maximum. "wrench": thrust, from zero to the maximum, and moments, allocated within the limits.
+        "rates": thrust and body rates up to 12 rad/s, tracked by the plant's inner loop.
     attitude : "matrix", "6d" or "body"
-        How the attitude is observed: all columns of R; the first two; or only the vertical, with all vectors in the
-        body frame, so that a policy need not learn what turning the heading changes.
+        How the attitude is observed. "matrix": all columns of R. "6d": the first two. "body": only the vertical, with
+        all vectors in the body frame, so that a policy need not learn that the heading makes no difference.
     observe : "all" or "state"
-        What is observed: all that `flypend.envs` lists, or what comes before the rotor forces, which `fp.laws.trained`
-        needs to fly the policy as a law.
+        What is observed: all that `flypend.envs` lists, or only what comes before the rotor forces. To fly the policy
+        as a law, `fp.laws.trained` needs "state".
     randomise : Randomisation
         What differs from world to world.
     sensors : Sensors, str or dict, optional
-        What measures the state: a suite ("mocap", "onboard"), `fp.Sensors` or a table. The filter of the flight
-        computer is then part of the world, once an action, and observations are its estimate; rewards and ends are
-        those of the true state. Default "perfect": the state itself.
+        The sensors: a suite ("mocap", "onboard"), `fp.Sensors` or a table. The estimator of the flight computer is then
+        part of the world. It runs once per action, and observations are its estimate; rewards and ends depend on the
+        true state. Default "perfect": the state itself is observed.
 
     Raises
     ------
     InputError
-        If the rates do not fit, the duration is less than an action, a delay is too long, or the plant has what worlds
-        do not: noise, sensors of its own, gusts, MuJoCo.
+        If the rates do not match, the duration is shorter than an action, a delay is too long, or the plant has
+        something that worlds do not have: noise, sensors of its own, gusts, MuJoCo.
     """
 
     task: Task

@@ -21,7 +21,7 @@ LEAST = 0.05  # of a ratio that a band leaves open downwards
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Randomisation:
-    """What is drawn anew, uniformly, whenever a world begins. Each is an interval (low, high).
+    """Intervals (low, high) from which numbers are drawn uniformly whenever a world begins.
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ class Randomisation:
     lag : (2,)
         Ratio of the true to the nominal time constant of the rotors.
     strength, thrust : (2,)
-        Ratio of the force of a rotor to that commanded: their product, of which `strength` is drawn for each rotor, and
-        `thrust` for all at once.
+        Ratio of the force of a rotor to that commanded. It is the product of both: `strength` is drawn for each rotor,
+        `thrust` for all rotors together.
     delay : (2,)
         Delay of the commands, s.
     wind : (2,)
@@ -71,9 +71,10 @@ class Randomisation:
 
     @classmethod
     def within_bands(cls, vehicle: Vehicle) -> Randomisation:
-        """Return what the bands of `vehicle` say of these numbers; of the other bands, worlds draw none.
+        """Return the intervals that the bands of `vehicle` give for these numbers; its other bands are not used.
 
-        A band of zero or below counts from a twentieth of the written number on. Raises InputError if it has no bands.
+        If a band reaches zero or below, its interval begins at a twentieth of the number in the file. Raises InputError
+        if it has no bands.
         """
         if not vehicle.bands:
             wanted = "bands in the vehicle's file, as flypend vehicle new and flypend identify write them"

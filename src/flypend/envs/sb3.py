@@ -1,4 +1,4 @@
-"""Worlds for Stable-Baselines3 and what is built on it, such as sbx, whose interface for many worlds is their own."""
+"""Worlds for Stable-Baselines3 and libraries built on it, such as sbx, which have a vector interface of their own."""
 
 from __future__ import annotations
 
@@ -69,12 +69,12 @@ class VecWorlds(VecEnv):  # type: ignore[misc]
     Parameters
     ----------
     worlds : VectorWorlds
-        Worlds that begin anew in the step in which they end, with copies of their arrays.
+        Worlds that are reset in the step in which they end, and return copies of their arrays.
 
     Raises
     ------
     InputError
-        If they do otherwise.
+        If the worlds have another `autoreset_mode`, or do not copy.
     """
 
     def __init__(self, worlds: VectorWorlds) -> None:

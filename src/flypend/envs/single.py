@@ -29,12 +29,11 @@ class World(Stateful, gymnasium.Env[Any, Any]):
     task, arguments
         See `flypend.envs.environment`.
     history : int
-        Number of earlier observations that follow the latest one in a row, latest first. Before the first there are
-        copies of it.
+        Number of earlier observations that follow the latest one in a row, latest first. At the beginning of an episode
+        they are copies of its first observation.
     observation_delay : int
-        Number of actions by which observations are late, at most 1,000: the row of step k is what that of step k minus
-        so many would be without delay, its last action and what it shows of the goal included. Rewards and ends are
-        never late.
+        Number of actions by which observations are late, at most 1,000. Step k then returns the row that step k minus
+        this number would have returned without delay, last action and goal included. Rewards and ends are never late.
     render_mode : "rgb_array", optional
         Makes `render` draw.
 
@@ -67,7 +66,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         self._goal = self.worlds.goals[0]
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin anew, with `seed`, or with a new one of the generator that the last seed started."""
+        """Begin a new episode with `seed`, or with the next one from the generator that the last seed initialised."""
         if seed is not None:
             check_seed("seed", seed)
             seed = int(seed)
@@ -95,8 +94,8 @@ class World(Stateful, gymnasium.Env[Any, Any]):
     def render(self) -> Any:
         """Return a picture (480, 480, 3) of uint8 of the present, or None without a `render_mode`.
 
-        The camera follows the vehicle along a grid of 0.5 m; a line leads to the goal. Of a world that has ended it
-        shows the last state before its end.
+        The camera follows the vehicle along a grid of 0.5 m; a line leads to the goal. For a world that has ended, the
+        picture shows its last state before the end.
         """
         self._check_begun()
         if self.render_mode is None:

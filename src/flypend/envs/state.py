@@ -17,12 +17,12 @@ from flypend.errors import InputError
 
 @dataclass(frozen=True)
 class SavedState:
-    """What an environment is at a moment; equal to another from which it goes on in the same way.
+    """State of an environment at one moment. Two are equal if the environment would go on from both in the same way.
 
     Parameters
     ----------
     about : tuple of (str, str)
-        What it is a state of: version, task, vehicle, number of worlds and whatever else must agree.
+        The environment: version, task, vehicle, number of worlds and all else that must agree.
     worlds : bytes
         Arrays of the worlds; see `flypend.envs.kernel.Worlds`.
     flown : bytes
@@ -66,7 +66,7 @@ class Stateful:
         return deepcopy(self)
 
     def save_state(self) -> SavedState:
-        """Return what the environment is now, to be restored in it or in another with the same arguments.
+        """Return the present state of the environment, to be restored in it or in another with the same arguments.
 
         Generators of the spaces, from which actions are sampled, and the counts of wrappers are not part of it: copy
         a wrapped environment whole.
@@ -76,15 +76,15 @@ class Stateful:
         return SavedState(about, self.worlds.save(), self._save_flown(), generator).sealed()
 
     def restore_state(self, state: SavedState) -> None:
-        """Become what an environment with the same arguments was when `state` was saved, and go on as it did.
+        """Restore a `state` that was saved from an environment with the same arguments, and continue from there.
 
-        Arrays that steps overwrite (`copy=False`) stay where they are and get their contents of then.
+        Arrays that steps overwrite (`copy=False`) stay in place, and get the contents that they had then.
 
         Raises
         ------
         InputError
-            If it is no such state, damaged, or that of another kind, version, task, vehicle, plant, number of worlds,
-            or whatever else changes what worlds do. Nothing is restored then.
+            If it is not such a state, is damaged, or belongs to another kind, version, task, vehicle, plant or number
+            of worlds, or to an environment that differs in any other way. Nothing is restored then.
         """
         if not isinstance(state, SavedState):
             raise InputError("state", "what save_state returned", type(state).__name__)

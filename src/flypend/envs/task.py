@@ -25,7 +25,7 @@ class Begin(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """What a world is like after an action: expressions, e₃ up.
+    """A world after an action, as expressions, e₃ up.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def nothing(now: Moment) -> Any:
 
 @dataclass(frozen=True)
 class Task:
-    """What an environment asks for. With functions that have a name in a module, its environments can be pickled.
+    """A task of an environment. Its environments can be pickled if its functions have names in a module.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Task:
     begin : callable
         (draws, vehicle) → `Begin`.
     goal : callable
-        (t, numbers of the goal) → position and velocity of the pivot that are wanted, (3, 1) each, m and m/s.
+        (t, numbers of the goal) → desired position and velocity of the pivot, (3, 1) each, m and m/s.
     reward : callable
         (`Moment`) → the reward of a step.
     ended : callable
@@ -80,7 +80,7 @@ class Task:
     duration : float
         Seconds after which a world is cut off.
     ahead : tuple of float
-        How long ahead, s, the goal is also observed.
+        Times ahead, s, at which the goal is observed, too.
     shown : callable
         (`Moment`) → what else is observed (j, 1).
     defaults : dict
@@ -140,7 +140,7 @@ def _begin_almost_upright(draws: Draws, vehicle: Vehicle, lean: float = 0.2) -> 
 
 
 def balance() -> Task:
-    """Balance the rod, which leans by at most 0.2 rad at first; lost once it leans by 60° or the vehicle is 3 m off."""
+    """Balance a rod that leans by at most 0.2 rad; the world ends if it leans by 60° or the vehicle is 3 m off."""
     return Task("Balance", _begin_almost_upright, hover_reference, upright, partial(fallen_or_beyond, radius=3.0), 5.0)
 
 
@@ -186,13 +186,12 @@ def upright_and_still(now: Moment) -> Any:
 
 
 def swing_up(*, shaped: bool = False) -> Task:
-    """Bring the rod up from hanging almost at rest, and balance it; lost once the vehicle is 5 m off.
+    """Swing the rod up from hanging almost at rest, and balance it. The world ends if the vehicle is 5 m off.
 
     Parameters
     ----------
     shaped : bool
-        Whether worlds begin with the rod at any angle, end when it is not up in time, and pay most for one that stands
-        still.
+        Whether worlds begin with the rod at any angle, end if it is not up in time, and reward a rod at rest most.
     """
     if shaped:
         late = partial(late_or_beyond, radius=5.0)
@@ -223,8 +222,8 @@ def track(shape: str = "circle", size: float = 0.5, turn_rate: float = 1.5) -> T
     Parameters
     ----------
     shape : "circle", "lemniscate" or "waypoints"
-        Way of the goal: round a circle of radius `size`, along a figure eight of half-length `size`, or through corners
-        of a square of half-width `size`, one after the other.
+        Path of the goal: around a circle of radius `size`, along a figure eight of half-length `size`, or from corner
+        to corner of a square of half-width `size`.
     size, turn_rate : float
         Size, m, and angular rate, rad/s; on a square, four corners make a turn.
     """

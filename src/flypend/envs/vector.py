@@ -20,10 +20,10 @@ from flypend.plants.plant import check_seed
 
 
 class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
-    """`num_envs` worlds, which begin anew in the step in which they end, unless `autoreset_mode` says otherwise.
+    """`num_envs` worlds, each reset in the step in which it ends, unless `autoreset_mode` says otherwise.
 
-    The observations of a step are then those of the new beginnings; the last ones of the worlds that have ended are in
-    `infos["final_obs"]`, at the rows marked in `infos["_final_obs"]`.
+    The observations of such a step are the first of the new episodes. The last ones of the worlds that have ended are
+    in `infos["final_obs"]`, at the rows marked in `infos["_final_obs"]`.
 
     Parameters
     ----------
@@ -32,8 +32,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     num_envs : int
         Number of worlds.
     copy : bool
-        Whether observations, rewards and flags are copies, which nothing changes; otherwise they are the worlds' own
-        memory, which each step, reset and `restore_state` overwrites in place. `infos` are copies in both cases.
+        Whether observations, rewards and flags are copies. If not, they are the worlds' own memory, which each step,
+        reset and `restore_state` overwrites in place. `infos` are copies in both cases.
     history, observation_delay : int
         See `World`.
     workers : int, optional
@@ -41,8 +41,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     render_mode : "rgb_array", optional
         Makes `render` draw.
     autoreset_mode : AutoresetMode or str
-        gymnasium's: what happens to a world that ends. "SameStep": see above. "NextStep": the step returns its last
-        observation; the next one, which ignores its action, its new beginning, with reward 0. "Disabled": it waits for
+        What happens to a world that ends, as in gymnasium. "SameStep": see above. "NextStep": this step returns its
+        last observation; the next step ignores its action, resets it and returns reward 0. "Disabled": it waits for
         `reset` with `options={"reset_mask": which}`.
 
     Raises
@@ -50,7 +50,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     InputError
         As `flypend.envs.environment`.
     ResetNeeded
-        If worlds are stepped that are to be reset first.
+        If worlds are stepped that must be reset first.
     """
 
     metadata = {  # noqa: RUF012
@@ -86,7 +86,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin worlds: world i with `seed` + i, or with its own of a list; without a seed, with new ones.
+        """Begin new episodes: world i with seed `seed` + i, or entry i of a list; without a seed, with new seeds.
 
         With a "reset_mask" (num_envs,) of bool in `options`, only those that it marks; the others stay as they are.
         """
@@ -144,7 +144,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """Return a picture of each world, as `World.render`, or None without a `render_mode`.
 
-        Of a world that has ended it shows the new beginning.
+        For a world that has ended, the picture shows the new beginning.
         """
         if self.render_mode is None:
             return None

@@ -91,12 +91,13 @@ def export_app(
     Parameters
     ----------
     target : "crazyflie" or "px4"
-        Whose firmware: an app for the first, a module with a flight mode for the other.
+        The firmware. For a Crazyflie, an app is written; for PX4, a module with a flight mode.
     law : Law
         As in `export_c`.
     vehicle : Vehicle
-        What it flies. For a Crazyflie, four rotors in the order of the firmware's motors, no more than 5 % of an arm
-        from their places. PX4 knows its own by the parameters of its airframe, in any order.
+        The vehicle. For a Crazyflie, it must have four rotors in the order of the firmware's motors, no more than 5 %
+        of an arm from the firmware's positions. With PX4 rotors may come in any order: the module matches them with the
+        parameters of the airframe.
     out : str or Path
         Folder that receives the files; it may exist.
     airframe : "cf2" or "cf21bl", optional
@@ -107,11 +108,12 @@ def export_app(
         Height above the ground, m, below which the law does not begin. Default: what a swing-up needs in the model,
         with a margin.
     sensors : Sensors or str, optional
-        For a Crazyflie: what poses, gyroscope and accelerometer are like, or the name of a suite. The law then flies on
-        the estimator for them, as `export_c` has it. Default "perfect": on an observer of the pose and one of the rod.
+        For a Crazyflie: the sensors (poses, gyroscope and accelerometer), or the name of a suite. The law then flies on
+        the estimator of `export_c` for these sensors. Default "perfect": the law flies on one observer of the pose and
+        one of the rod.
     planned : bool
-        For a Crazyflie: plan a swing-up of least excursion from rest with the rod hanging, and let the law fly where it
-        ends, or where rod or pivot are too far from it.
+        For a Crazyflie: plan a swing-up of smallest excursion from rest with the rod hanging. The law takes over where
+        the plan ends, or once rod or pivot are too far from it.
 
     Returns
     -------
@@ -121,9 +123,9 @@ def export_app(
     Raises
     ------
     InputError
-        As `export_c`, for another target, for a vehicle that is no such airframe, for an airframe, sensors or a plan
-        with PX4, for sensors other than those of a Crazyflie or with a plan, for a plan that fails, for a law that does
-        not swing the rod up unless a height is given, and for one that takes too many cycles, or too much memory
+        As `export_c`. Also if the target is unknown; if the vehicle does not fit the airframe; if an airframe, sensors
+        or a plan are given for PX4; if sensors are not those of a Crazyflie, or come with a plan; if the plan fails; if
+        the law does not swing the rod up and no height is given; or if it takes too many cycles or too much memory
         (`fits`).
     """
     errors.one_of("target", target, tuple(FILES))

@@ -273,8 +273,8 @@ def _library(law: BoundLaw, vehicle: Vehicle, precision: Precision, rate: float,
 def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
     """The exported flight computer of `law` on `vehicle`, compiled here, as a controller.
 
-    It flies in sampled plants with limits that take rotor forces ("rotors", "mujoco"), and stands for the whole flight
-    computer there: nothing of it is left in Python. It is compiled for the control rate of the plant.
+    It flies in sampled plants with rotor limits that take rotor forces ("rotors", "mujoco"). There it replaces the
+    whole flight computer: no part is left in Python. It is compiled for the control rate of the plant.
 
     Parameters
     ----------

@@ -63,7 +63,7 @@ def export_nmpc(plan: Plan, folder: str | Path, *, precision: Precision = "float
     plan : Plan
         A plan that can be flown, without constraints beyond the limits of the rotors, on a gimbal.
     folder : path
-        Folder to write; an earlier one of the package is replaced.
+        Folder to write; one that flypend wrote before is replaced.
     precision : "float" or "double"
         Type of all numbers.
 

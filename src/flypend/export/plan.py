@@ -127,7 +127,7 @@ def export_plan(plan: Plan, folder: str | Path, *, precision: Precision = "float
     plan : Plan
         A plan that can be flown.
     folder : path
-        Folder to write; an earlier one of the package is replaced.
+        Folder to write; one that flypend wrote before is replaced.
     precision : "float" or "double"
         Type of all numbers.
 

@@ -57,7 +57,8 @@ def export_c(
     Parameters
     ----------
     law : Law
-        Any law written in symbols with square roots only; one that depends on time must have `along`.
+        A symbolic law that uses no function but the square root. A law that depends on time must have a `path` (see
+        `BoundLaw.along`).
     vehicle : Vehicle
         What it flies.
     out : str or Path
@@ -65,10 +66,10 @@ def export_c(
     precision : "double" or "float"
         Type of every number.
     rate : float
-        How often the flight computer will be called, Hz.
+        Rate at which the flight computer will be called, Hz.
     sensors : Sensors or str, optional
-        What is measured, or the name of a suite: writes flypend_sensors.h and .c too, the flight computer with an
-        estimator. Default "perfect": none.
+        The sensors, or the name of a suite. flypend_sensors.h and .c are then written, too: the flight computer with an
+        estimator. Default "perfect": no estimator.
     check : bool
         Whether to fly the law first, for seconds, and state the result in the header. A poor one is a warning.
 
@@ -80,9 +81,9 @@ def export_c(
     Raises
     ------
     InputError
-        For a law that is no `Law`, that uses other functions than the square root or the time itself, a vehicle whose
-        rotors do not share thrust and yaw equally, an unknown precision, a rate out of range, or a folder that cannot
-        be written.
+        If `law` is not a `Law`, or uses the time itself or a function other than the square root; if the vehicle's
+        rotors do not share thrust and yaw equally; if the precision is unknown or the rate out of range; or if the
+        folder cannot be written.
     """
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", repr(law))

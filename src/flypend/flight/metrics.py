@@ -27,9 +27,9 @@ class Metrics:
     """Metrics of one flight against its criterion, by default inverted hover at the reference.
 
     A trajectory is judged at its samples, and so are flights of an ensemble in a sampled plant; means over time follow
-    the trapezoidal rule. In the ideal plant an ensemble takes forces from the steps of the integration: the largest is
-    that of all stages, so peaks between samples count, and the mean is that of the method. Its excursion, of the same
-    samples, is as accurate as a step.
+    the trapezoidal rule. In the ideal plant an ensemble takes forces from the steps of the integration. The largest is
+    that of all stages, so peaks between samples count; the mean uses the weights of the method. The excursion is taken
+    at the samples, as accurately as the integration.
 
     Parameters
     ----------

@@ -43,8 +43,9 @@ class Recovery:
 def recoveries(run: Trajectory, criterion: Criterion | None = None) -> list[Recovery]:
     """Return the recoveries of `run`, by `criterion` (default `Criterion()`: inverted), judged at its samples.
 
-    A start outside the tolerances is the first. If a flight has no other, its time is `Metrics.settling` of a start at
-    0 s, and its distance is `Metrics.excursion` if the vehicle strays no farther within the tolerances.
+    If a flight starts outside the tolerances, its first recovery begins at 0 s. If there is no other, the time of that
+    recovery is `Metrics.settling`. Its distance is `Metrics.excursion`, unless the vehicle strays farther within the
+    tolerances.
     """
     errors.check_kind("run", run, "Trajectory")
     criterion = criterion or Criterion()

@@ -206,8 +206,8 @@ class Trajectory:
     def save(self, path: str | Path) -> None:
         """Save the run to the NetCDF file `path` (.nc), for xarray, MATLAB (ncread) and, through xarray, pandas.
 
-        `fp.load` reads it. The file is written atomically. Raises InputError if it is not writable, or the run is none
-        that could be loaded: with arrays of different length, or states that are no states.
+        `fp.load` reads it. The file is written atomically. Raises InputError if it is not writable, or if the run could
+        not be loaded again, because its arrays differ in length or its states are invalid.
         """
         saved.write(path, *saved.content(self._variables(), self._attributes(), self.drift))
 
@@ -276,9 +276,9 @@ class Trajectory:
         speed : float
             Initial flight time over playback time, > 0. A menu on the page changes it.
         live : bool
-            Whether the page computes flights itself: it answers pokes, starts, gains and a hand on the rod with the
-            equations, as WebAssembly. For flights through a sampled plant of the built-in equations, under a compiled
-            law, flown in this session; the other runs stay as they were.
+            Whether the page computes flights itself, as WebAssembly: it responds to pokes, new starts, gains and a hand
+            on the rod. Needs a compiled law, a plant of the built-in equations, and a run flown in this session. The
+            other runs stay as they were.
         windows : sequence of Window
             Openings in walls that are drawn, e₃ up; `Plan.windows` are those that a plan flies through.
 
@@ -291,7 +291,7 @@ class Trajectory:
         ------
         InputError
             If there are more than four runs, the layout is unknown, the speed is not positive, the file is not
-            writable, the run cannot be `live`, or a window is none.
+            writable, the run cannot be `live`, or a window is not a `Window`.
         """
         from flypend.flight.verdict import verdict  # imported here: most runs are never shown
         from flypend.pages import replay
@@ -325,6 +325,6 @@ def _live(run: Trajectory) -> dict[str, Any]:
 def load(path: str | Path) -> Trajectory:
     """Load the run that `Trajectory.save` wrote to `path`, or the flight of a plan that `Plan.save` wrote.
 
-    Raises InputError if the file holds none: every number and name is checked, whether or not it has a digest.
+    Raises InputError if the file holds no valid run: every number and name is checked, with or without a digest.
     """
     return Trajectory(**saved.run_from(*saved.read(path, saved.KIND), str(path))[0])

@@ -1,4 +1,4 @@
-"""A machine's numbers from a flight log: the numbers that make the prediction errors of a Kalman filter likeliest.
+"""A machine's numbers from a flight log: those for which the prediction errors of a Kalman filter are most likely.
 
 The model is that of the sampled plants. Gusts, noisy feedback and unequal rotors are part of it; bands come from the
 scores of segments of the log, which need no model of the noise to be right.
@@ -30,9 +30,9 @@ def identify(
 ) -> Identified:  # fmt: skip
     """Find the numbers of a machine in a flight log with the rod hanging.
 
-    Prediction errors of an extended Kalman filter over the package's equations are made likeliest by scoring (Åström,
-    "Maximum likelihood and prediction error methods", 1980); the covariance is the sandwich of information and the
-    scores of segments (White, 1982).
+    An extended Kalman filter with the package's equations predicts the log. Fisher scoring finds the numbers for which
+    its prediction errors are most likely (Åström, "Maximum likelihood and prediction error methods", 1980). Their
+    covariance is the sandwich of the information and the scores of segments (White, 1982).
 
     Parameters
     ----------
@@ -40,20 +40,20 @@ def identify(
         A CSV file, PX4's ULog, a bag of ROS 2 in MCAP or a Crazyflie's µSD log; docs/how-to/identify.md has their
         columns and topics.
     vehicle : Vehicle
-        The guess. Its mass is taken as weighed, its rotor positions, spins, limits and gravity as known.
+        The guess. Its mass counts as weighed; its rotor positions, spins, limits and gravity are taken as exact.
     marker : (3,)
-        The tracked point from the pivot, body frame, m.
+        Position of the tracked point relative to the pivot, body frame, m.
     command : "newton" or "pwm"
         Whether u1, u2, … are forces, N, or fractions from 0 to 1 of the largest force.
     mass_error : float
-        Share within which the mass is known.
+        Relative error within which the mass is known.
     progress : callable, optional
-        Told ("pass", done, total).
+        Called with ("pass", done, total).
 
     Raises
     ------
     InputError
-        If the file is no such log, has other rotors than the vehicle, or its fractions exceed 1.
+        If the file is not such a log, has another number of rotors than the vehicle, or its fractions exceed 1.
     """
     place = errors.array("marker", marker, (3,))
     pwm = errors.one_of("command", command, ("newton", "pwm")) == "pwm"

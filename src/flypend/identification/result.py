@@ -48,14 +48,15 @@ class Identified:
     vehicle : Vehicle
         The machine, with `thrust_scale` and `bands`.
     bands : dict
-        Field → (low, high), in the units and shape of the field: true numbers lie within in 95 of 100 cases. Beside
-        fields of the vehicle there are `delay`, `latency` (s), `sag`, `spin_up`, and `strength` by rotors.
+        Field → (low, high), in the units and shape of the field: each is meant to contain the true number in 95 % of
+        cases. Beside fields of the vehicle there are `delay`, `latency` (s), `sag`, `spin_up`, and `strength` by
+        rotors.
     delay : float
-        From the row of a command to its action, s.
+        Time from the row of a command to its action, s.
     plant : Plant
         Sampled plant with the delay, sag, spin-up and strengths of the rotors that were found.
     untold : tuple of str
-        Fields of which the log told next to nothing: they stay near the guess.
+        Fields about which the log says next to nothing: they stay near the guess.
     """
 
     vehicle: Vehicle

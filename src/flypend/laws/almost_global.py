@@ -45,8 +45,8 @@ OUTSIDE = Guard(
 def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem B about a `reference` for the pivot. V falls along every solution.
 
-    Every start reaches the reference but those with y = -d or z = -z_d, a set of measure zero on which the law is not
-    defined. It assumes that the wrench acts as commanded, without limits.
+    Every start reaches the reference, except those with y = -d or z = -z_d, a set of measure zero on which the law is
+    not defined. The law assumes that the wrench acts as commanded, without limits.
 
     Parameters
     ----------

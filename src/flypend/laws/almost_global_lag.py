@@ -37,9 +37,9 @@ GAINS = table(
 def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem D about a `reference` for the pivot: `almost_global` through rotors that lag.
 
-    Every start reaches the reference, whatever the rotors give at first, but those with y = -d or z = -z_d, as without
-    lag. It assumes that all rotors have the lag of the vehicle, `rotor_lag`, that their forces are known, and that they
-    have no limits: it flies in `flypend.Ideal(lag=True)`.
+    Every start reaches the reference, whatever the initial rotor forces, except those with y = -d or z = -z_d, as
+    without lag. The law assumes that all rotors have the lag of the vehicle, `rotor_lag`, and no limits, and that their
+    forces are known. So it flies in `flypend.Ideal(lag=True)`.
 
     Parameters
     ----------

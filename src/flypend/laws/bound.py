@@ -54,8 +54,8 @@ class Computer:
     delay_reach : float
         Largest delay beyond `latency` that the flight computer finds in flight, s; 0 for none.
     models_lag : bool
-        Whether the law reckons with the rotors' lag. If not, what the lead leaves of it counts like a delay that is
-        found: the law sees the state after both.
+        Whether the law itself accounts for the rotors' lag. If not, the part of the lag that the lead leaves is
+        predicted over, like a delay that was found: the law sees the state after both.
     observer : float
         Bandwidth of the external-force observer, 1/s; 0 for none. Only for a law with `uses_forces`.
     force_limit : float
@@ -89,7 +89,8 @@ class Control:
     wrench : Wrench
         Thrust and moment, in the law's frame.
     lyapunov : dict
-        Scalar expressions whose sum is the law's Lyapunov function V. The closed loop adds V and all their rates.
+        Scalar expressions whose sum is the law's Lyapunov function V. The closed loop adds V, and the rates of V and of
+        each scalar.
     signals : dict
         Other scalar expressions to record.
     """
@@ -125,8 +126,8 @@ class BoundLaw(Tunable):
     theorem, certify : callable, optional
         As in `Law`.
     calmer : callable, optional
-        `calmer(share)` returns the law with gains that, near its reference, are this far from its defaults towards
-        those that tremble least under noise (see `calmed`); None for a law that has no such gains.
+        `calmer(share)` returns the law with gains that, near its reference, are moved by `share` from the defaults to
+        those that tremble least under noise (see `calmed`). None for a law without such gains.
     calm : float
         That share, of this law.
     within_limits : bool
@@ -221,7 +222,7 @@ class BoundLaw(Tunable):
     def along(self) -> Callable[[Path], BoundLaw] | None:
         """Return the same law on another path (see `laws.references.Path`); None for a law without a path.
 
-        What is proved of the law is proved on its own path: the one that comes back has no theorem.
+        The law's theorem is about its own path, so the law returned has none.
         """
         return None if self.path is None else self._along
 

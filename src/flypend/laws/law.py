@@ -47,8 +47,8 @@ class Law(Tunable):
     uses_forces : bool
         Whether the law compensates external forces.
     uses_wrench : bool
-        Whether `control` takes the wrench that acts, as the keyword argument `acting`: rotors with lag give another
-        than commanded. Such a law flies in `Ideal(lag=True)` only.
+        Whether `control` takes the wrench that acts, as the keyword argument `acting`. Rotors that lag make it differ
+        from the command. Such a law flies only in `Ideal(lag=True)`.
     reference : callable, optional
         Pivot position (3, 1) to hold or follow, as a CasADi function of time; None for none.
     path : callable, optional
@@ -64,8 +64,8 @@ class Law(Tunable):
     certify : callable, optional
         `certify(bound)` returns the set that rotor limits allow: see `BoundLaw.certified_set`. None for a law without.
     calm : callable, optional
-        `calm(vehicle, share)` returns the gains, by name, that tremble less where the state is estimated from noisy
-        readings; `share` 0 means the defaults, 1 the calmest. None for a law without such gains.
+        `calm(vehicle, share)` returns gains, by name, with which the vehicle trembles less when the state is estimated
+        from noisy readings; `share` 0 means the defaults, 1 the calmest. None for a law without such gains.
     """
 
     name: str

@@ -68,9 +68,9 @@ GAINS = table(
 def repaired(**gains: float) -> Law:
     """Build Theorem 1 repaired, in the paper's frame, where y = e₃ hangs along gravity. V falls along every solution.
 
-    All starts hang but for two sets of measure zero: z = -z_d, where the law is not defined, and the stable manifold of
-    the saddle y = -e₃. Position is not controlled: the vehicle ends at constant velocity. It assumes that the wrench
-    acts as commanded, without limits.
+    The rod comes to hang from every start outside two sets of measure zero: z = -z_d, where the law is not defined, and
+    the stable manifold of the saddle y = -e₃. Position is not controlled: the vehicle ends at constant velocity. The
+    law assumes that the wrench acts as commanded, without limits.
 
     Parameters
     ----------

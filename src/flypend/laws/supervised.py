@@ -62,10 +62,10 @@ GAINS, LAGGED_GAINS = _gains(lag=False), _gains(lag=True)
 def supervised(
     reference: Reference | None = None, *, first: Law | None = None, lag: bool = False, **gains: float
 ) -> Law:
-    """Build the law that flies `first` until the state is in a certified set of `almost_global`, and that law there.
+    """Build the law that flies `first` until the state is in a certified set of `almost_global`, then `almost_global`.
 
     On a plant with rotor limits, a flight that enters the set converges: there the limits never act. Without `lag` the
-    plant is `flypend.Ideal(limits=True)`, and with it `flypend.Ideal(limits=True, lag=True)`; what is sampled is not
+    plant is `flypend.Ideal(limits=True)`, and with it `flypend.Ideal(limits=True, lag=True)`; sampled plants are not
     covered.
 
     Parameters
@@ -76,11 +76,11 @@ def supervised(
     first : Law, optional
         A law with e₃ up; default `inverted` about the reference. Its flight computer flies both.
     lag : bool
-        Whether rotors lag. The second law is then `almost_global_lag`, its set one of states and rotor forces, and the
-        first commands with a `lead`, another gain: see `laws.lag.lead_wrench`.
+        Whether rotors lag. The second law is then `almost_global_lag`, with a set of states and rotor forces. The
+        commands of the first law then get a `lead`, a further gain: see `laws.lag.lead_wrench`.
     **gains : float
-        Any of the gains below, in the stated unit. Their defaults are the `certified_set` of the second law on the
-        vehicle, which takes seconds, and through a lag some ten.
+        Any of the gains below, in the stated unit. Their defaults come from the `certified_set` of the second law on
+        the vehicle, which takes a few seconds to compute, through a lag about ten.
 
     {gains}
 

@@ -117,7 +117,7 @@ PRINTED = table(
 @errors.named_arguments
 @document_gains(PRINTED)
 def printed(**gains: float | str) -> Law:
-    """Build Theorem 1 as printed: damping sign and minimum-norm beta are its own, e₃ points along gravity."""
+    """Build Theorem 1 as printed, with its damping sign and its minimum-norm beta; e₃ points along gravity."""
     return Law(name="printed", e3="down", gains=PRINTED, given=gains, control=_as_printed, guard=_guard_printed)
 
 

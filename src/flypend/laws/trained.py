@@ -64,8 +64,8 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
     Raises
     ------
     InputError
-        If the file holds no such network, a shape does not fit, a weight is not finite, or a gain is unknown or out of
-        range. `bind` raises it if the network is for another number of rotors.
+        If the file holds no suitable network, a shape does not fit, a weight is not finite, or a gain is unknown or out
+        of range. `bind` raises it if the network is for another number of rotors.
     """
     from_file = isinstance(network, str | Path)
     layers: Any = network

@@ -32,10 +32,10 @@ from flypend.model.urdf import model_sdf, model_urdf
 class Vehicle:
     """A multirotor with a rod on a ball joint. SI units, body frame front-left-up.
 
-    A rod of inertia J across moves like a point bob with a second mass at the pivot: both have together its mass, its
-    first and its second moment. The paper's letters are those of that bob, and so exact for every rod whose pivot is
-    the centre of mass: m = λ bob_mass, l = rod_length/λ, M = mass + (1 − λ) bob_mass, λ = 1/(1 + J/(bob_mass
-    rod_length²)).
+    A rod with the transverse inertia J moves like a point bob with a second mass at the pivot: together they have the
+    mass, first moment and second moment of the rod. The paper's letters are those of that bob. They are exact for every
+    rod whose pivot is at the vehicle's centre of mass: m = λ bob_mass, l = rod_length/λ, M = mass + (1 − λ) bob_mass, λ
+    = 1/(1 + J/(bob_mass rod_length²)).
 
     Parameters
     ----------
@@ -71,8 +71,8 @@ class Vehicle:
     body : Body or dict, optional
         Radii of the parts that the rod can touch; required for a hub or a cup.
     pivot_offset : (3,)
-        Position of the ball joint relative to the centre of mass, body frame, m. Sampled plants have it, as they have
-        friction and spin; laws and the ideal plant take all of them as zero.
+        Position of the ball joint relative to the centre of mass, body frame, m. Offset, friction and spin act in
+        sampled plants; laws and the ideal plant neglect them.
     pivot_damping, pivot_friction : float
         Viscous (N m s) and dry friction (N m) of the joint; see `flypend.model.joint`.
     rod_spin, rod_spin_inertia : float
@@ -83,14 +83,15 @@ class Vehicle:
         Ratio of the force of every rotor to that commanded. Limits, commands and flights are in commanded force; see
         `commanded`.
     bands : dict, optional
-        Field → (low, high), of `Vehicle.estimate` or `flypend.identify`, to which those of its guess are known before.
+        Field → (low, high), as `Vehicle.estimate` and `flypend.identify` return them. For `identify`, the bands of the
+        guess are the prior.
 
     Raises
     ------
     InputError
-        If a number is not finite, out of range or such as no machine has (see `flypend.model.plausible`), the inertia
-        is not symmetric positive definite or violates the triangle inequality, a spin is not ±1, the rotors cannot
-        produce every wrench, the mount is unknown, or a hub or cup has no body.
+        If a number is not finite, out of range or implausible (see `flypend.model.plausible`), the inertia is not
+        symmetric positive definite or violates the triangle inequality, a spin is not ±1, the rotors cannot produce
+        every wrench, the mount is unknown, or a hub or cup has no body.
     """
 
     name: str = "unnamed"
@@ -212,8 +213,8 @@ class Vehicle:
     def commanded(self) -> Vehicle:
         """Return the vehicle in units of commanded force, in which its `thrust_scale` is 1.
 
-        A machine whose rotors push s times what they are asked for moves under the same commands as one with masses,
-        inertias, friction and drag divided by s. Laws, flights and plans take this one; wind counts in the same unit.
+        A machine whose rotors push s times as hard as commanded moves like one with masses, inertias, friction and drag
+        divided by s, under the same commands. Laws, flights and plans use that machine; wind is in the same unit.
         """
         s = self.thrust_scale
         if s == 1.0:
@@ -292,8 +293,8 @@ class Vehicle:
 
         The body "vehicle" is free, with its origin in the pivot; the body "bob", which is the rod, turns about it by
         the ball joint "pivot". The controls "rotor0", "rotor1", … are the forces of the rotors, N, within
-        `rotor_limits`. Not in the model, since MuJoCo's own joints and air differ from the package's: friction of the
-        joint, air, and the mount; geoms are to be looked at, without mass and contact. `rod_spin` belongs to a state.
+        `rotor_limits`. Friction of the joint, air and the mount are not in the model, since MuJoCo's own joints and air
+        differ from the package's. Geoms are for display only, without mass or contact. `rod_spin` belongs to a state.
 
         Parameters
         ----------
@@ -312,12 +313,12 @@ class Vehicle:
     def to_urdf(self) -> str:
         """Return the machine as URDF, for ROS, Gazebo, Drake, Isaac, PyBullet and MuJoCo. z up, SI units.
 
-        The link "vehicle" is the root, with its origin in the pivot; whoever loads it decides that it is free. Since
-        URDF has no ball joint, the rod, "bob", hangs in the two axes of a gimbal, "pivot_x" and "pivot_y", with a ring
-        between them whose mass and inertia are a millionth of the rod's: it cannot spin about its own axis, and the
-        angles are singular where it lies along the vehicle's x. The links "rotor0", "rotor1", … are the frames in which
-        the rotors push along z. URDF has no word for rotors: limits, torques, lag and mount are in a comment. Shapes
-        are to be looked at, and do not collide.
+        The link "vehicle" is the root, with its origin in the pivot; it is free only if the program that loads it makes
+        it so. URDF has no ball joint, so the rod, "bob", turns about two axes, "pivot_x" and "pivot_y". Between them is
+        a ring with a millionth of the rod's mass and inertia. The rod cannot spin about its own axis, and the angles
+        are singular where it lies along the vehicle's x. The links "rotor0", "rotor1", … are the frames in which the
+        rotors push along z. URDF does not describe rotors: limits, torques, lag and mount are in a comment. Shapes are
+        for display only, and do not collide.
         """
         return model_urdf(self)
 
@@ -326,7 +327,7 @@ class Vehicle:
 
         The link "vehicle" has its origin in the pivot, about which the rod, the link "bob", turns by the ball joint
         "pivot", with z along the rod. The frames "rotor0", "rotor1", … are those in which the rotors push along z.
-        Limits, torques, lag and mount are in a comment, as in `to_urdf`. Shapes are to be looked at, and do not
+        Limits, torques, lag and mount are in a comment, as in `to_urdf`. Shapes are for display only, and do not
         collide.
         """
         return model_sdf(self)
@@ -365,7 +366,7 @@ class Vehicle:
         rod_length, rod_mass, bob_mass : float or str
             Length of a uniform rod from the pivot to its end, m; its mass, and that of a bob at its end, kg.
         motor, battery : str, optional
-            "920 KV" or a name of the table; "4S" or volts. Both, or neither.
+            "920 KV" or the name of a known motor; "4S" or volts. Give both, or neither.
         thrust : float or str, optional
             Largest force of one rotor, N, if it was measured.
         inertia : (3,), optional
@@ -378,7 +379,8 @@ class Vehicle:
         Raises
         ------
         InputError
-            For a number that no such machine has, with the unit that was probably meant, or rotors too weak to hover.
+            If a number is implausible (the message names the unit that was probably meant), or the rotors are too weak
+            to hover.
         """
         found = Measured(
             mass, arm, propeller, rod_length, rod_mass, bob_mass, motor, battery, thrust, inertia, rotors, mount, name

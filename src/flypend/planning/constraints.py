@@ -89,14 +89,14 @@ class Constraints:
         Distance that the rod of a hub or cup keeps from what it can touch, and the machine from a window's frame, m;
         default 0.01.
     keep : callable, optional
-        A constraint of one's own: a function of `m`, with m.x, m.x_dot, m.R, m.omega, m.y, m.y_dot as in `State` and
-        m.rotor_forces (N), that gives a CasADi expression, or several, each to stay ≥ 0. It is kept to a thousandth of
-        its unit, so scale it to the order of one. It must be smooth where the flight may go, and positive at the start
-        and in hover at the target.
+        A constraint of your own: a function of `m`, with m.x, m.x_dot, m.R, m.omega, m.y, m.y_dot as in `State` and
+        m.rotor_forces (N). It returns one or several CasADi expressions that must stay ≥ 0. They are kept to within
+        0.001, so scale them to the order of one. They must be smooth wherever the flight may go, and positive at the
+        start and in hover at the target.
     cost : callable, optional
-        A cost of one's own, beside the objective: as `keep`, a function of `m` that gives one or several expressions.
-        Half the sum of their squares, integrated over time in units of √(l/g), is added. The weight of an excursion of
-        a rod's length is 1: scale it against that.
+        A cost of your own, besides the objective: like `keep`, a function of `m` that returns one or several
+        expressions. Half the sum of their squares, integrated over time in units of √(l/g), is added. For scale: an
+        excursion of one rod length has the weight 1.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ class Constraints:
 
     @property
     def loose(self) -> bool:
-        """Whether a flight that does not know of them often keeps them: walls, a speed, or one's own."""
+        """Whether a flight that ignores these constraints often keeps them: walls, a speed, or your own."""
         return not {"box", "floor", "ceiling", "speed", "keep"}.isdisjoint(self.given) and not (
             self.windows or self.lean or len(self.points)
         )

@@ -1,8 +1,8 @@
 """What flies until there is a plan: the law, then a sketch of the plan; or constant rotor forces, to touch nothing.
 
 The law does not know which way a plan will go, and where the optimum is small, going the other way is most of the
-excursion. A few iterations from all guesses tell the way. Nor does it know of the mount. What may keep the rod away
-there is all rotors at a limit or in hover, or those on one side of the pivot at one limit and the others at the other.
+excursion. A few iterations from all guesses tell the way. Nor does the law guarantee the clearance of the mount.
+Constant forces may: all rotors at a limit or in hover, or one side of the pivot at one limit, the other at the other.
 """
 
 from __future__ import annotations

@@ -56,28 +56,28 @@ def plan(
     Parameters
     ----------
     vehicle : Vehicle
-        Vehicle parameters; its rotor limits, rotor lag and mount are constraints. As laws do, a plan takes pivot
-        offset, friction of the joint, spin of the rod and air as zero.
+        Vehicle parameters; its rotor limits, rotor lag and mount are constraints. Like a law, a plan neglects pivot
+        offset, friction of the joint, spin of the rod, and air.
     start : State
         A single state, e₃ up.
     objective : "excursion", "effort", "time", "cost" or dict
-        What to make small: the largest distance of the pivot from target or path, the deviation of the rotor commands
-        from hover, the duration, or the `cost` of the constraints alone; or weights of "excursion" (of its square, in
-        rod lengths) and "effort".
+        What to minimise: the largest distance of the pivot from target or path, the deviation of the rotor commands
+        from hover, the duration, or the `cost` of the constraints alone. A dict gives weights of "excursion" (of its
+        square, in rod lengths) and "effort".
     duration : float, optional
-        By when it hovers, s; default 12.5 √(l/g), or longer if that is too short. A plan takes less time only if none
-        that takes all of it is as good.
+        Time by which the vehicle hovers, s; default 12.5 √(l/g), or longer if that is too short. A plan is shorter only
+        if no plan of full length is as good.
     target : (3,) or State
-        Where the pivot is to hover, m; default the origin, or the end of the path. Or a single state to end in, e₃ up:
-        hanging, `State(y=(0, 0, -1))`, or in motion; its heading does not matter.
+        Where the pivot should hover, m; default the origin, or the end of the path. Or a single state to end in, e₃ up:
+        hanging, `State(y=(0, 0, -1))`, or in motion. The heading of that state does not matter.
     rotors : (n,), optional
         Rotor forces at the start, N; default their minimum.
     constraints : Constraints, optional
-        What the flight keeps, beside the limits of the rotors.
+        Constraints on the flight, besides the limits of the rotors.
     time_limit : float, optional
-        Processor time after which the best so far is returned, s, and `reason` says so; default none. The work is
-        limited anyway, so that a plan does not depend on the machine. Compiling, once per kind of constraints, does not
-        count.
+        Processor time after which the best plan so far is returned, s; `reason` then says so. Default none: the number
+        of iterations is limited anyway, so that a plan does not depend on the machine. The time to compile, once per
+        kind of constraints, does not count.
     **keywords
         Fields of `Constraints` one by one: box, floor, ceiling, speed, lean, window, waypoints, path,
         clearance, keep, cost.
@@ -85,7 +85,7 @@ def plan(
     Returns
     -------
     Plan
-        Also if there is none: see `Plan.status` and `Plan.reason`.
+        Returned even if no plan was found: see `Plan.status` and `Plan.reason`.
 
     Raises
     ------
@@ -156,9 +156,9 @@ def plan_ensemble(
     progress: Progress = lambda *_: None,
     **keywords: Unpack[Keywords],
 ) -> PlanEnsemble:
-    """Plan flights of `vehicle` from each of `starts`, each guess on a lane of its own.
+    """Plan flights of `vehicle` from each of `starts`, eight guesses at a time.
 
-    Plan i depends on start i alone, whatever else is in the batch and on however many cores.
+    Plan i depends on start i alone, not on the rest of the batch or the number of cores.
 
     Parameters
     ----------
@@ -169,8 +169,8 @@ def plan_ensemble(
     objective : "excursion", "effort" or dict
         As in `plan`, except "time".
     guesses : int
-        From how many guesses, up to 8, the best plan is taken. `plan` takes 8 for each horizon it tries. Two more are
-        tried where none is found, before the duration grows.
+        Number of guesses for each plan, up to 8; the best result is taken. `plan` uses 8 for each horizon that it
+        tries. Where none leads to a plan, two more are tried before the duration grows.
     workers : int, optional
         Number of threads; default one per core.
     progress : callable

@@ -84,10 +84,10 @@ def nmpc(
 ) -> Controller:
     """Return a controller that plans the way to inverted hover in flight, and again whenever it is thrown off.
 
-    It is a flight computer: at once, and whenever the rod is about to fall, it plans from where it will be when
-    the plan is ready, and until then the inverted law flies. A plan is flown with feedback, and what is left of it is
-    solved again in every stage, by one real-time iteration. In hover the inverted law takes over. docs/planning/nmpc.md
-    says who flies when.
+    It is a flight computer. At the start, and whenever the rod is about to fall, it plans from the state in which it
+    will be when the plan is ready; until then the inverted law flies. A plan is flown with feedback, and the rest of it
+    is solved again in every stage, by one real-time iteration. In hover the inverted law takes over.
+    docs/planning/nmpc.md says who flies when.
 
     Parameters
     ----------
@@ -96,19 +96,19 @@ def nmpc(
     reference : callable, optional
         Pivot position to hold or follow; see `laws.references`. Default that of `otherwise`, or the origin.
     latency : float
-        Delay to compensate while a plan is flown, s, as in `laws.Computer`; that of `otherwise` is its own. What
-        exceeds it is found in flight as far as `otherwise` looks for it.
+        Delay to compensate while a plan is flown, s, as in `laws.Computer`; that of `otherwise` is its own. A further
+        delay is found in flight, as far as `otherwise` searches for one.
     computing : float or "measured"
-        Time that a real-time iteration of 150 stages takes on the flight computer, s; its result, and that of the first
-        plan in proportion, is there that much later. "measured" takes the processor time that it took here, and flights
-        do not repeat.
+        Time that a real-time iteration of 150 stages takes on the flight computer, s. Its result is used that much
+        later; the first plan is late in proportion. With "measured", the processor time on this machine counts, and
+        flights are not repeatable.
     otherwise : Law, optional
         What flies until there is a plan, in hover, and when there is none; default the inverted law about `reference`.
     constraints : Constraints, optional
-        What its plans keep, when they are made and in every iteration: all but waypoints and path. A window counts
-        until the pivot is through. What says where or how fast the pivot may be needs a reference that rests. Where no
-        plan keeps a box, floor, ceiling, speed or `keep` in time, or the flight has broken it already, a plan that
-        breaks it is flown; the laws that fly between plans keep none but the clearance.
+        Constraints on its plans, at first and in every iteration: all but waypoints and path. A window counts until the
+        pivot is through. Constraints on the position or speed of the pivot need a reference at rest. If no plan keeps a
+        box, floor, ceiling, speed or `keep` in time, or the flight has broken it already, a plan that breaks it is
+        flown. The laws that fly between plans keep only the clearance.
     **keywords
         Fields of `Constraints` one by one.
 

@@ -53,9 +53,9 @@ class Plan:
     objective : dict
         Weights of what was minimised, by name.
     target : (3,)
-        Where the pivot is to hover, m.
+        Where the pivot should hover, m.
     path : callable, optional
-        Where the pivot is to be until then, m, as a function of time; default the target.
+        Where the pivot should be until then, m, as a function of time; default the target.
     windows : tuple of Window
         What it flies through.
     t : (n,)
@@ -69,9 +69,8 @@ class Plan:
     stage : float
         Duration of a stage, s.
     status : "converged", "feasible" or "failed"
-        Whether it ends in hover and keeps all limits, and if so whether its solver had converged: its `stationarity`
-        is at most 1e-4. That is an optimum among neighbours: other guesses may lead to others, of which this is the
-        best.
+        "failed" unless the plan ends in hover and keeps all limits; "converged" if also `stationarity` is at most 1e-4.
+        A converged plan is a local optimum, the best of those that the guesses led to.
     reason : str
         Why it failed, or has not converged; else empty.
     solve_time : float
@@ -79,13 +78,14 @@ class Plan:
     iterations : int
         Iterations of the solver.
     stationarity : float
-        How far it is from the conditions of first order: by which share the last Newton step was to change its cost,
-        barrier included. An optimum among neighbours has 0.
+        Relative change of the cost, barrier included, that the last Newton step predicted: how far the plan is from the
+        first-order conditions. 0 at a local optimum.
     guess : int
         The style of the guess that led here.
     guesses, agreeing : int
-        From how many guesses it is the best, and how many of them, itself included, came within 1 % of its cost, before
-        it alone was solved to the end. The fewer agree, the likelier is a better plan from yet another guess.
+        Number of guesses of which this plan is the best, and how many of them, itself included, came within 1 % of its
+        cost before it alone was solved to the end. The fewer agree, the more likely another guess leads to a better
+        plan.
     """
 
     vehicle: Vehicle
@@ -185,8 +185,8 @@ class Plan:
     def save(self, path: str | Path) -> None:
         """Save the plan to the NetCDF file `path` (.nc), which `fp.load_plan` reads; `fp.load` reads its flight.
 
-        The file is written atomically. Raises InputError if it is not writable, or the plan is none that could be
-        loaded: with arrays of different length, or numbers that are not finite.
+        The file is written atomically. Raises InputError if it is not writable, or if the plan could not be loaded
+        again, because its arrays differ in length or its numbers are not finite.
         """
         write(path, *files.content(self))
 
@@ -307,10 +307,10 @@ def _independent_step(vehicle: Vehicle) -> Any:
 
 @errors.named_arguments
 def load_plan(path: str | Path) -> Plan:
-    """Load the plan that `Plan.save` wrote to `path`, every number that of the plan.
+    """Load the plan that `Plan.save` wrote to `path`, with exactly the same numbers.
 
     A path that it follows is made of straight lines between its samples.
 
-    Raises InputError if the file holds none: every number and name is checked, whether or not it has a digest.
+    Raises InputError if the file holds no valid plan: every number and name is checked, with or without a digest.
     """
     return Plan(**files.fields_of(path))

@@ -116,8 +116,8 @@ def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> 
     plan : Plan
         The plan, which starts where the flight starts.
     latency : float
-        Delay to compensate, s, as in `laws.Computer`. What exceeds it is found in flight as far as `otherwise` looks
-        for it.
+        Delay to compensate, s, as in `laws.Computer`. A further delay is found in flight, as far as `otherwise`
+        searches for one.
     otherwise : Law, optional
         The law that takes over for good once rod or pivot are too far from the plan; default the inverted law about the
         target.
@@ -208,8 +208,7 @@ def plan_and_track(
 ) -> Controller:
     """Return a controller that plans a flight from its first measurement, tracks the plan, and hovers.
 
-    It flies, compares and is judged like a law, and plans for whatever vehicle it is told. Planning takes no time in
-    the flight.
+    Use it like a law, for any vehicle. Planning takes no simulated time.
 
     Parameters
     ----------
@@ -226,7 +225,7 @@ def plan_and_track(
     Raises
     ------
     InputError
-        If objective, constraints or `otherwise` are none; other errors of `plan` come when a flight begins.
+        If objective, constraints or `otherwise` are invalid. Other errors of `plan` are raised when a flight begins.
     """
     weights_of(objective)
     kept = gather("plan_and_track", constraints, keywords)

@@ -48,14 +48,14 @@ LEVEL = 1e-4  # keeps the direction finite in which a body normal to an axis ext
 @errors.named_arguments
 @dataclass(frozen=True, eq=False)
 class Window:
-    """A rectangular opening in a plane wall without end, world frame with e₃ up.
+    """A rectangular opening in an infinite plane wall, world frame with e₃ up.
 
     Parameters
     ----------
     centre : (3,)
         Centre of the opening, m.
     width, height : float
-        Its sides: level, or normal to `up`, and along `up`; m.
+        Its sides, m: width level, or normal to `up`; height along `up`.
     normal : (3,)
         Direction normal to the wall, either way.
     up : (3,)
@@ -108,8 +108,8 @@ class Window:
     def room(self, states: State, vehicle: Vehicle) -> Array:
         """Return how much room a vehicle leaves between itself and the frame, (n,), m; negative where they overlap.
 
-        It is the least distance, along the wall, between the frame and what is within the wall: rod, arms, hub and
-        rotor discs, each with its radius. It is infinite where nothing of the machine is.
+        The room is the smallest distance, along the wall, between the frame and the parts inside the wall: rod, arms,
+        hub and rotor discs, each with its radius. It is infinite while no part is inside.
 
         Parameters
         ----------

@@ -175,7 +175,7 @@ class Sampled:
     noise : Noise, optional
         Measurement noise.
     spin_up : float
-        Time constant of the rotors while their force rises, over the lag, with which it falls.
+        Time constant of a rotor's force while it rises, divided by `lag`, its time constant while it falls.
     sag : float
         Share of the battery's voltage that is lost when every rotor is commanded its maximum; forces are
         proportional to the square of the voltage.
@@ -196,8 +196,8 @@ class Sampled:
     pivot_offset : (3,)
         Offset of the ball joint, added to the vehicle's, body frame, m. The law does not know it.
     centre_of_mass : (3,)
-        True centre of mass of the vehicle beside that which the law believes in, body frame, m; rotors and joint stay
-        where they are.
+        True centre of mass of the vehicle relative to the one that the law assumes, body frame, m; rotors and joint
+        stay where they are.
     pivot_damping, pivot_friction : float
         Viscous (N m s) and dry friction (N m) of the joint, added to the vehicle's. The law does not know of them.
     rod_spin : float
@@ -328,7 +328,7 @@ class Sampled:
         return known if self.air == ("all",) else tuple(name for name in AIR if name in self.air)
 
     def in_air(self, vehicle: Vehicle) -> bool:
-        """Whether forces act on `vehicle` that depend on its motion and position: of the air, or the ground."""
+        """Whether forces of the air or the ground act on `vehicle`, which depend on its motion and position."""
         return bool(self.effects(vehicle)) or self.ground is not None
 
     def _check(self, vehicle: Vehicle) -> None:

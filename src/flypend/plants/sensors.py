@@ -38,11 +38,11 @@ class Sensor:
     noise : float
         Standard deviation of white noise per axis, in the unit of the reading.
     latency : float
-        From the instant of a reading until the flight computer has it, s.
+        Time from a reading until the flight computer receives it, s.
     dropouts : float
         Probability that a reading never arrives.
     quantisation : float
-        Step of the readings, in the unit of the reading; for joints, of the angles. The estimator is told. Not for
+        Step of the readings, in the unit of the reading; for joints, of the angles. The estimator knows it. Not for
         attitude and rod.
     """
 
@@ -79,7 +79,7 @@ class Sensor:
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Sensors:
-    """What measures vehicle and rod, and what the estimator on board expects beyond it.
+    """The sensors of vehicle and rod, their errors, and what the estimator on board assumes.
 
     Parameters
     ----------
@@ -98,23 +98,24 @@ class Sensors:
     rod_gyro : Sensor, optional
         Gyroscope of an IMU on the rod: angular velocity y × ẏ in the body frame, rad/s.
     start : Noise
-        Standard deviations of the error of the estimate with which a flight begins.
+        Standard deviations of the error of the first estimate of a flight.
     rates : "estimated" or "differenced"
-        By the estimator, or, as a negative control, the differences of the last two poses, which must be measured.
+        How rates are obtained: from the estimator or, as a negative control, as differences of the last two poses,
+        which must be measured.
     force_error : float
-        Density of the specific forces on vehicle and on bob that the model lacks in hover, m/s²/√Hz. Forces that last
-        are estimated; this is about those that change.
+        Density of the unmodelled specific forces on vehicle and bob in hover, m/s²/√Hz. It describes forces that
+        change; those that last are estimated.
     manoeuvre_error : float
-        What is added to it per departure of the specific force from that of hover, 1/√Hz.
+        What is added to `force_error` for each m/s² by which the specific force departs from that of hover, 1/√Hz.
     moment_error : float
-        Density of the angular acceleration that the model lacks, rad/s²/√Hz.
+        Density of the unmodelled angular acceleration, rad/s²/√Hz.
     command_delay : float, optional
-        Delay from measurement to command that the estimator assumes, s; default that of the plant. Under a law that
-        looks for its delay, until the flight has told it.
+        Delay from measurement to command that the estimator assumes, s; default that of the plant. If the law finds its
+        delay in flight, the estimator uses that one as soon as it is found.
     gyro_bias, gyro_scale : float or (3,)
-        Error of the gyroscope that lasts, rad/s, and that of its scale per axis. Of these and all errors below that may
-        be vectors: a vector is the error of every flight; a number is a standard deviation per component, from which
-        each flight draws its own with its seed. The estimator is told of none.
+        Constant error of the gyroscope, rad/s, and relative error of its scale, per axis. For these and all errors
+        below that may be vectors: a vector is the error of every flight; a number is the standard deviation per
+        component of an error that each flight draws with its own seed. The estimator knows none of them.
     accelerometer_bias, accelerometer_scale : float or (3,)
         The same of the accelerometer, m/s².
     gyro_bias_walk, accelerometer_bias_walk : float
@@ -122,12 +123,12 @@ class Sensors:
     imu_turned : float or (3,)
         Rotation vector from the body to the IMU's axes, rad.
     markers_off : float or (3,)
-        Position of the vehicle's marker body beside the pivot, body frame, m.
+        Position of the vehicle's marker body relative to the pivot, body frame, m.
     markers_turned : float or (3,)
         Rotation vector from the body to the marker body, rad.
     rod_markers_off : float or (2,)
-        Angles by which the direction of the rod's markers is off, in a frame that moves with the rod, rad; a marker off
-        by d at a distance a from the pivot is off by d/a.
+        Two angles between the rod and its markers, in a frame that moves with the rod, rad; a marker displaced by d at
+        a distance a from the pivot gives d/a.
     joints_off : float or (2,)
         Error of the zeros of both joint angles, rad.
     frame_off, frame_turned : float or (3,)
@@ -139,24 +140,24 @@ class Sensors:
     vibration_rate : float
         Its frequency, that of the rotors, Hz; readings at a lower rate alias it.
     outliers : float
-        Share of the poses of a body, vehicle or rod, that are of another one.
+        Share of the poses of vehicle or rod that are of a wrong body.
     outlier_off, outlier_turned : float
-        How far that one is away, m, and turned, rad, each in a random direction.
+        Distance (m) and rotation (rad) of that wrong body from the true one, each in a random direction.
     bursts, burst_time : float
         Mean number of bursts per second in which cameras send nothing, and how long one lasts, s.
     untold_latency : float
-        By how much poses are older than their age says, s.
+        Time by which poses are older than their stated age, s.
     latency_jitter : float
-        By how much more poses may be older, s: each frame uniformly between 0 and this.
+        Largest further delay of a pose, s, drawn for each frame uniformly from 0.
     adjustable : tuple of str, or "all"
-        Defects that are part of the program of the sensors even where they are 0: a change of their sizes compiles
-        nothing, and a flight in pieces takes them anew with each piece. All of them draw random numbers.
+        Defects that are compiled in even where they are 0, so that changing their sizes compiles nothing, and each
+        piece of a flight in pieces can have other sizes. All of them draw random numbers.
 
     Raises
     ------
     InputError
-        If a field is out of range, or something needed is not measured: position and angular velocity, the rod by
-        direction or joint angles.
+        If a field is out of range, or a sensor is missing: position, gyroscope, and the rod's direction or joint angles
+        are needed.
     """
 
     position: Sensor | None = None
@@ -239,7 +240,7 @@ class Sensors:
 
     @property
     def told(self) -> Sensors:
-        """What the estimator is told: the same without defects."""
+        """The sensors as the estimator knows them: without defects."""
         return replace(self, **self._usual())
 
     def _usual(self) -> dict[str, Any]:
@@ -256,9 +257,9 @@ class Sensors:
     def trust(self, period: float, departure: Any) -> Any:
         """Return the share of the motion for which the accelerometer answers, not the model: 0 without one.
 
-        `period` is the control period, s, `departure` as in `following`.
-        What is followed more slowly than the position corrects the velocity, at the bandwidth of a Kalman filter of a
-        mass on which a force of density `force_error` acts, hardly passes its noise on.
+        `period` is the control period, s, `departure` as in `following`. It compares two squared bandwidths: that of
+        `following`, and that at which the position corrects the velocity (of a Kalman filter of a mass under a force of
+        density `force_error`). An accelerometer that is followed more slowly than that hardly passes its noise on.
         """
         if self.accelerometer is None:
             return 0.0
@@ -267,11 +268,11 @@ class Sensors:
         return followed / (followed + self.force_error / np.sqrt(self.position.density(period)))
 
     def lacking(self, period: float, departure: Any) -> tuple[Any, Any]:
-        """Return the densities of specific forces on vehicle and bob that the estimator reckons with, (m/s²)²/Hz.
+        """Return the densities of specific forces on vehicle and bob that the estimator assumes, (m/s²)²/Hz.
 
         `period` is the control period, s, `departure` as in `following`. The faster the accelerometer is followed, the
-        less the model's own errors count. Its noise counts in full, but what passes in hover is slower: forces that
-        last are taken from the same corrections, which is not counted.
+        less the model's own errors count. The accelerometer's noise counts in full. In hover less of it passes, since
+        lasting forces are estimated from the same corrections; this is neglected.
         """
         steady, moving = self.force_error**2, self.manoeuvre_error**2 * departure
         noise = 0.0 if self.accelerometer is None else self.accelerometer.density(period)
@@ -291,11 +292,11 @@ class Sensors:
         return replace(self, **changes)
 
     def noisier(self, factor: float) -> Sensors:
-        """Return a copy with the noise of every sensor times `factor`; the estimator is told."""
+        """Return a copy with the noise of every sensor times `factor`; the estimator knows it."""
         return self.replace(**{n: replace(s, noise=factor * s.noise) for n, s in self.streams.items()})
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the fields as plain tables, without what is not there; `Sensors(**…)` takes them back."""
+        """Return the fields as plain tables, without defaults and absent sensors; `Sensors(**…)` takes them back."""
         usual = self._usual()
         given = {name: value for name, value in asdict(self).items() if value is not None}
         return {name: value for name, value in given.items() if name not in usual or value != usual[name]}

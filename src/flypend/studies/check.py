@@ -85,7 +85,7 @@ class Check:
     warnings : tuple of str
         What leaves little margin, and in which tasks flights fail.
     plans : PlanEnsemble, optional
-        Plans from some of the random starts, where the law fails: what the vehicle could do.
+        Plans from some of the random starts, if the law fails: they show what the vehicle could do.
     """
 
     vehicle: Vehicle
@@ -172,11 +172,11 @@ def check(
     workers: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> Check:
-    """Find out whether `law` can fly `vehicle`, how well, and how wrong its numbers may be before it cannot.
+    """Find out whether `law` can fly `vehicle`, how well, and how wrong its model of the vehicle may be.
 
-    Hover, leans at rest, a swing-up from hanging, level and random starts; then the margins of delay, rotor lag, rod
-    length, mass and noise, at which success from random starts drops below 90 % while the law still believes its
-    vehicle.
+    The tasks are hover, leans at rest, a swing-up from hanging, level and random starts. Then come the margins of
+    delay, rotor lag, rod length, mass and noise: how far each may change, unknown to the law, before success from
+    random starts drops below 90 %.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def check(
     seed : int
         Seed of the random starts.
     duration : float
-        Seconds per flight; default 30, or 10 where there are only 24.
+        Seconds per flight; default 30, or 10 where there are only 24 random starts.
     margins : bool, optional
         Whether to search for margins; default where there are 1000 random starts.
     bands : bool
@@ -204,8 +204,8 @@ def check(
     Raises
     ------
     InputError
-        For the ideal plant, which has no margins, a law that does not fly any vehicle, numbers out of range, and
-        `bands` of a vehicle without any. A vehicle that cannot be flown is a result.
+        If the plant is ideal, which has no margins; if the code of a law of your own fails; if a number is out of
+        range; or with `bands`, if the vehicle has none. A vehicle that cannot be flown is a result, not an error.
     """
     world = plants.as_sampled(plant)
     if bands:

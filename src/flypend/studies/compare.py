@@ -82,7 +82,7 @@ def compare(
     duration, workers
         As in `simulate_ensemble`.
     plant : str, Plant or sequence of Plant
-        As in `simulate_ensemble`; of several, each flies an equal share of the starts, in their order.
+        As in `simulate_ensemble`; of several, each gets an equal share of the starts, in order.
     progress : callable
         Called with `(name of the law, done, total)`.
     """

@@ -111,9 +111,9 @@ def trial(
     """Fly `vehicle` under `law` for a minute with fifteen random knocks, and sweep the numbers of the model.
 
     A flight with knocks starts with the rod hanging at rest, in a cup with the rod inside. In each interval of 4 s the
-    vehicle and the bob are hit once, at a random moment, each in a random direction. In the sweeps, which fly from
-    random starts for 10 s, or for 30 s where that is not enough with the true model, the law believes `vehicle`, and
-    one number of the world is 0.75, 0.875, 1.125 or 1.25 times as large.
+    vehicle and the bob are hit once, at a random moment, each in a random direction. The sweeps fly from random starts
+    for 10 s, or for 30 s if 10 s are not enough with the true model. The law assumes `vehicle`, and one number of the
+    world is 0.75, 0.875, 1.125 or 1.25 times as large.
 
     Parameters
     ----------

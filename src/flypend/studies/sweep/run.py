@@ -51,7 +51,7 @@ def sweep(
     workers : int, optional
         Cores of this machine to use; default all.
     processes : bool
-        Whether to use processes on this machine, which no port leads to. Threads are as fast for compiled laws.
+        Whether to use worker processes on this machine; no port is opened. Threads are as fast for compiled laws.
     force : bool
         Whether to start over, discarding the store of an earlier sweep.
     progress : callable

@@ -17,8 +17,10 @@ IDS = {
 }  # fmt: skip
 # What `--body` shows: the state in the body frame, where the heading changes nothing. Such a policy flies as a law.
 BODY: dict[str, Any] = {"attitude": "body", "observe": "state"}
-# Half as many decisions, and twice as many beginnings, as the task has.
-ONLY_IN_TRAINING: dict[str, dict[str, Any]] = {"swing_up": {"rate": 50.0, "duration": 5.0}}
+# Half as many decisions; of the swing-up, twice as many beginnings as the task has.
+ONLY_IN_TRAINING: dict[str, dict[str, Any]] = {
+    "swing_up": {"rate": 50.0, "duration": 5.0}, "catch_in_cup": {"rate": 50.0},
+}  # fmt: skip
 WORLDS = 256
 EVERY = {"ppo": 65_536, "sac": 16_384}  # steps between two looks at the score
 RARER = {"swing_up": 8}  # looks at long flights
@@ -35,9 +37,13 @@ SETTINGS: dict[str, dict[str, Any]] = {
         "buffer_size": 500_000, "policy_kwargs": {"net_arch": [64, 64]},
     },
 }  # fmt: skip
+# A rod that is caught at once costs metres, and the way back takes seconds, over which returns must look.
+OF_TASK: dict[tuple[str, str], dict[str, Any]] = {("ppo", "catch_in_cup"): {"gamma": 0.995, "gae_lambda": 0.98}}
 # Rate of learning from the first step to that of this number, and from there on. Large steps find the swing-up; small
 # ones hold the rod still at the goal.
-FALLING: dict[tuple[str, str], tuple[float, float, int]] = {("ppo", "swing_up"): (1e-3, 1e-4, 8_000_000)}
+FALLING: dict[tuple[str, str], tuple[float, float, int]] = {
+    ("ppo", task): (1e-3, 1e-4, 8_000_000) for task in ("swing_up", "catch_in_cup")
+}  # fmt: skip
 
 
 class Trained(NamedTuple):
@@ -78,8 +84,9 @@ def trained(
     arguments = {**(seen_as or {}), **ONLY_IN_TRAINING.get(task, {})}
     made = make_vec_env(IDS[task], WORLDS, seed=1_000_000 * seed, env_kwargs=arguments)
     # Returns of about 1 are what the step sizes are made for. Normalised observations do not help.
-    normalised = VecNormalize(made, norm_obs=False)
-    model = algorithm("MlpPolicy", normalised, seed=seed, device="cpu", **SETTINGS[name])
+    settings = {"gamma": 0.99, **SETTINGS[name], **OF_TASK.get((name, task), {})}
+    normalised = VecNormalize(made, norm_obs=False, gamma=settings["gamma"])
+    model = algorithm("MlpPolicy", normalised, seed=seed, device="cpu", **settings)
     if (name, task) in FALLING:
         first, last, steps = FALLING[name, task]
         model.lr_schedule = lambda _: first * (last / first) ** min(1.0, model.num_timesteps / steps)

@@ -250,6 +250,7 @@ def test_the_shaped_swing_up_begins_at_any_angle_and_pays_for_standing():
     upright = plain.step(action)[1]
     y, y_dot = worlds.worlds.states[:, 18:21], worlds.worlds.states[:, 21:24]
     still = 1 / (1 + 2 * (1 - y[:, 2]) / 0.3**2) / (1 + (y_dot**2).sum(1) / 3.0**2)
+    still /= 1 + (worlds.worlds.states[:, :3] ** 2).sum(1) / 1.5**2
     assert not over.any()
     assert np.allclose(paid, upright * (0.4 + 0.6 * still), atol=1e-6)  # float32
 

@@ -167,6 +167,16 @@ def test_a_leg_that_is_late_is_not_flown(monkeypatch):
     np.testing.assert_array_equal(lead.schedule.at(FIRST + STAGE), first.schedule.at(FIRST + STAGE))
 
 
+def test_legs_that_take_longer_than_a_plan_are_not_begun():
+    lead = sketched(waits_of(HEHN), STARTS[0], legs=(ALONE, ALONE))
+    assert lead.found is None
+    assert lead.wait == FIRST + ALONE
+
+
+def test_a_plan_counts_the_iterations_of_all_its_sketches():
+    assert sum(fallback.LEGS) >= sketched(waits_of(HEHN), STARTS[0]).found.iterations > fallback.LEGS[-1]
+
+
 def test_after_a_failure_there_is_no_sketch(monkeypatch):
     """Only the law is known to lead somewhere."""
     begun, of_sketch = [], Fallback.sketch
@@ -176,9 +186,13 @@ def test_after_a_failure_there_is_no_sketch(monkeypatch):
         return of_sketch(self, t, *given, **more)
 
     monkeypatch.setattr(Fallback, "sketch", counted)
+    asked, of_plan = [], receding_horizon.Pilot._plan
+    monkeypatch.setattr(receding_horizon.Pilot, "_plan", lambda *given: asked.append(of_plan(*given)) or asked[-1])
     monkeypatch.setattr(receding_horizon, "plan_within", lambda *given: replace(NO_PLAN, reason="none"))
+    monkeypatch.setattr(receding_horizon, "plans_of", lambda *given: [replace(NO_PLAN, reason="none")])
     monkeypatch.setattr(receding_horizon, "PAUSE", 0.1)
     run = fp.simulate(HEHN, fp.nmpc(HEHN), STARTS[0], 8.0, plant="rotors")
+    assert len(asked) > 1
     assert begun == pytest.approx([0.0], abs=1e-5)  # the board's least delay
     assert fp.metrics(run).success
 

@@ -317,7 +317,7 @@ def test_what_hovers_and_breaks_a_constraint_is_nearer_to_a_plan_than_what_never
 
 def test_a_sketch_does_not_know_of_walls():
     """Four iterations that do choose the way worse."""
-    walled, free = (flown_by(fp.nmpc(HEHN, floor=floor), STARTS[1], 0.04)[0] for floor in (-0.8, None))
+    walled, free = (flown_by(fp.nmpc(HEHN, floor=floor), STARTS[1], 0.04)[0] for floor in (-0.5, None))
     unaware = walled.t < 0.012 + 0.019  # the first stage of the sketch: without walls, guesses are solved on meanwhile
     np.testing.assert_array_equal(walled.packed[unaware], free.packed[unaware])
 

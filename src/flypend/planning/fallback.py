@@ -161,9 +161,9 @@ class Fallback:
         """Return a sketch of a plan with a `horizon` (√(l/g)) that is there after `first` (s), and what it becomes.
 
         Until then rotors are held. In each of `legs`, whole stages of at least so many seconds, guesses are solved on
-        from where the best so far leads by its end. Without legs the sketch flies for as long as a plan takes `alone`
-        (s). Nothing that is `measured` and late is flown. There is no sketch if the rod would come too near to what it
-        may touch; then as `until`. Raises InputError as `ask` does.
+        from where the best so far leads by its end. Without legs, or where they would take longer, the sketch flies for
+        as long as a plan takes `alone` (s). Nothing that is `measured` and late is flown. There is no sketch if the rod
+        would come too near to what it may touch; then as `until`. Raises InputError as `ask` does.
         """
         held = Schedule((t, t + first), (np.clip(begin[SIZE:], *self._vehicle.rotor_limits),))
         path, begun = held.flown(self._vehicle, begin), process_time()
@@ -172,15 +172,17 @@ class Fallback:
         relay = Relay(asked.unconstrained() if asked.kept.loose else asked, horizon, ROUNDS, SOFT)
         found, stage, force = relay.improve(LEGS[0]), stages_of(horizon)[1] * asked.units.time, asked.units.force
         counts = [math.ceil(leg / stage - 1e-9) for leg in legs]
+        if stage * sum(counts) > alone:
+            counts = []
         now, wait = t + first, first + (stage * sum(counts) if counts else alone)
         sketch = _schedule(found.commands * force, now, t + wait, stage)
         ahead = sketch.flown(self._vehicle, path[-1])
         late = measured and process_time() - begun > first
         kept = -math.inf if late else self._kept(np.concatenate([path, ahead]))
-        if kept < self._clearance:
+        if not kept >= self._clearance:
             # From a start that is nearer than that, constant forces that keep away best lead nowhere.
             least, instead = self._instead(t, begin, first + alone)
-            if kept < NEARER * least:
+            if not kept >= NEARER * least:
                 return instead
         flies, passed = held.then(sketch), 0
         for count, iterations in zip(counts, LEGS[1:], strict=False):

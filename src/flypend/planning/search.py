@@ -116,6 +116,11 @@ class Race:
         return self._solvers[lane].iterate(0)
 
     @property
+    def running(self) -> list[int]:
+        """The lanes that are not given up."""
+        return self._running
+
+    @property
     def measures(self) -> Measures:
         """See `Solver`."""
         some = [solver.measures if i in self._running else LOST for i, solver in enumerate(self._solvers)]
@@ -336,16 +341,19 @@ class Relay:
     def __init__(self, asked: Request, horizon: float, rounds: Mapping[int, int], soft: float) -> None:
         self._jobs = [Job(asked, style) for style in range(WIDTH)]
         self._race = Race(_alone(asked), *make_guesses(self._jobs, horizon), rounds, closed=False)
-        self._asked, self._soft = asked, soft
+        self._asked, self._soft, self._iterations, self._spent = asked, soft, 0, 0.0
 
     def improve(self, iterations: int) -> Found:
         """Do so many `iterations`, and return the best of this leg; the cheapest, if none reaches its end."""
         watch = Watch(self._jobs, range(WIDTH), iterations, self._soft)
         self._soft *= SOFT_GROWTH**iterations
         found = _raced(self._race, watch, self._asked.structure.soft, math.inf)
+        self._iterations, self._spent = self._iterations + found.iterations, self._spent + found.spent
+        found = replace(found, iterations=self._iterations, spent=self._spent)
         if not found.lacks:
             return found
-        lane = int(np.argmin(np.nan_to_num(self._race.measures.cost, nan=np.inf)))
+        cost = np.nan_to_num(self._race.measures.cost, nan=np.inf)
+        lane = min(self._race.running, key=cost.__getitem__)
         states, commands = self._race.iterate(lane)
         return replace(found, states=states, commands=commands, style=lane)
 

@@ -4,19 +4,22 @@ import asyncio
 import json
 import signal
 import time
+from types import SimpleNamespace
 
 import pytest
 from test_lab import Lab, asked, cpu
 from tornado.websocket import websocket_connect
 
+from flypend.lab import worker
 from flypend.lab.own import OwnLaws
 from flypend.lab.session import Slot
 from flypend.lab.shares import Shares
-from flypend.lab.worker import Limits, Workers
+from flypend.lab.worker import Limits, Worker, Workers
 
 LAW = """
 import os
 import time
+from types import SimpleNamespace
 import numpy as np
 import flypend as fp
 
@@ -211,3 +214,27 @@ def test_nothing_of_a_server_that_is_killed_is_left(place):
     while (left := [one for one in found if cpu(one)]) and time.monotonic() < end:
         time.sleep(0.1)
     assert left == []
+
+
+def test_a_page_that_goes_while_its_process_starts_leaves_it_its_channel(monkeypatch):
+    """Closed too soon, its number was another file's by the time the process got it."""
+    seen = []
+
+    class Slow:
+        def __init__(self, args, **_):
+            self.channel = args[0]
+
+        def start(self):
+            time.sleep(0.2)
+            seen.append(self.channel.fileno())
+
+    async def scenario():
+        start = asyncio.create_task(Worker.start(OwnLaws([]), SHORT))
+        await asyncio.sleep(0.05)
+        start.cancel()
+        await asyncio.wait([start])
+
+    monkeypatch.setattr(worker, "_context", SimpleNamespace(Process=Slow))
+    asyncio.run(scenario())  # which waits for its threads
+    assert len(seen) == 1
+    assert seen[0] >= 0

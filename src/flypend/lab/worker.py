@@ -70,9 +70,17 @@ class Worker:
     async def start(cls, own: OwnLaws, limits: Limits) -> Worker:
         """Start a process that flies the custom laws `own`, too."""
         ours, theirs = socket.socketpair()
-        with theirs:
-            process = _context.Process(target=work, args=(theirs, own, limits), daemon=True)
-            await asyncio.to_thread(process.start)
+        process = _context.Process(target=work, args=(theirs, own, limits), daemon=True)
+
+        def begin() -> None:
+            with theirs:
+                process.start()
+
+        try:
+            await asyncio.to_thread(begin)
+        except BaseException:  # cancelled, while the thread goes on: the process finds its channel closed, and ends
+            ours.close()
+            raise
         return cls(process, limits, *await asyncio.open_connection(sock=ours, limit=LONGEST_REPLY))
 
     def ask(self, message: dict[str, Any]) -> None:

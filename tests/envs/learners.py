@@ -37,7 +37,7 @@ def _one_thread_in_an_empty_folder(tmp_path, monkeypatch):
     torch.set_num_threads(1)
 
 
-CELLS = re.findall(r"^# %% sb3\.\w+\n(.*?)(?=^# %%|\Z)", EXAMPLES, flags=re.M | re.S)
+CELLS = re.findall(r"^# %% sb3\.\w+[^\n]*\n(.*?)(?=^# %%|\Z)", EXAMPLES, flags=re.M | re.S)
 LEARNERS = re.compile(r"^```python learners\n(.*?)^```$", flags=re.M | re.S)
 TRAINED, ONE, FLOWN = LEARNERS.findall(PAGE)  # the last flies what the first has trained
 TUTORIAL = LEARNERS.findall((ROOT / "docs" / "tutorials" / "learn-by-gradient.md").read_text(encoding="utf-8"))

@@ -101,7 +101,8 @@ class Worker:
     def switch(self, on: bool) -> None:
         """Let the process run, or make it wait."""
         if self.process.is_alive():
-            os.kill(self.process.pid, signal.SIGCONT if on else signal.SIGSTOP)
+            with suppress(ProcessLookupError):  # it may end meanwhile
+                os.kill(self.process.pid, signal.SIGCONT if on else signal.SIGSTOP)
 
     def kill(self) -> None:
         """End the process at once."""

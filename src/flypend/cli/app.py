@@ -398,18 +398,10 @@ def write_laboratory(html: Path, served: list[str]) -> None:
 
 
 for _command in (
-    theorem.theorem,
-    planning.plan,
-    *learning.COMMANDS,
-    *studies.COMMANDS,
-    *identification.COMMANDS,
-    *check.COMMANDS,
-    *viewing.COMMANDS,
-    *listing.COMMANDS,
-    *examples.COMMANDS,
-    *cache.COMMANDS,
-    *export.COMMANDS,
-):
+    theorem.theorem, planning.plan, learning.learn, studies.sweep, studies.draw_map, studies.tune,
+    identification.vehicle, identification.identify, check.check, viewing.replay, viewing.movie, viewing.figures,
+    listing.laws, listing.vehicles, examples.examples, cache.cache, export.export_c, export.export_app,
+):  # fmt: skip
     app.add_command(_command)
 
 

@@ -57,15 +57,10 @@ def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, dist
     """
     if errors.one_of("view", view, VIEWS) == "axis":
         return Camera(direction=-geometry.E3, up=geometry.E2, distance=distance)
-    right = main_direction(run)
+    right = sketch.main_direction(run.states.in_frame(run.e3))
     level = np.cross(geometry.E3, right)
     c, s = np.cos(elevation), np.sin(elevation)
     return Camera(direction=c * level - s * geometry.E3, up=s * level + c * geometry.E3, distance=distance)
-
-
-def main_direction(run: Trajectory) -> Any:
-    """Horizontal unit vector (3,), e₃ up, along which the rod of `run` moves most; see `flypend.pages.sketch`."""
-    return sketch.main_direction(run.states.in_frame(run.e3))
 
 
 def states_at(run: Trajectory, times: Any) -> State:
@@ -189,11 +184,6 @@ def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float)
         for tilt in (-1, 1):
             ax.plot([x - d, x + d], [y - tilt * d, y + tilt * d], color=INK, linewidth=1.2)
     else:
-        _arrow(ax, (x, y + size), (x, y - size), color=INK, linewidth=1.2)
+        style = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", (x, y - size), (x, y + size), arrowprops={**style, "color": INK, "linewidth": 1.2}, zorder=2.0)
     ax.text(x + size, y, "g", fontsize=fontsize, va="center", style="italic")
-
-
-def _arrow(ax: Any, tail: Any, tip: Any, **style: Any) -> None:
-    """Draw an arrow from `tail` (2,) to `tip` (2,), in the axes' units."""
-    head = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", tip, tail, arrowprops={**head, **style}, zorder=2.0)

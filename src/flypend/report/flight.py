@@ -127,11 +127,6 @@ def write_flight(
                 "",
             ]
         lines += [f"Goal: {text.judgement(run)}.", ""]
-        content = {
-            "settings": settings,
-            "outcome": vars(run.outcome),
-            "claims": verdicts,
-            "inverted": vars(metrics(run)),
-        }
+        content = {"settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
         text.write_report(folder, "\n".join(lines), {**content, "inverted": vars(metrics(run))})
     return verdicts

@@ -91,7 +91,9 @@ def reproduce(
         with processes(os.cpu_count() or 1) as submit:
             pending = [(name, submit(task)) for name, task in tasks]
             result = _judge(runs, swing_up)
-            _save_runs(runs, folder / "runs")
+            for label, group in vars(runs).items():
+                for name, run in group.items():
+                    run.save(folder / "runs" / f"{label.replace('_', '-')}-{name}.nc")
             swing_up.save(folder / "runs" / "inverted-swing-up.nc")
             _write_reports(result, folder)
             for done, (name, future) in enumerate(pending):
@@ -133,12 +135,6 @@ def _judge(runs: Runs, swing_up: Trajectory) -> Reproduction:
     return Reproduction(verdicts, ends, findings(runs), swing_up, repaired)
 
 
-def _save_runs(runs: Runs, folder: Path) -> None:
-    for label, group in vars(runs).items():
-        for name, run in group.items():
-            run.save(folder / f"{label.replace('_', '-')}-{name}.nc")
-
-
 def _write_reports(result: Reproduction, folder: Path) -> None:
     parts = [
         "# Stabilizing a spherical pendulum on a quadrotor: which claims hold",
@@ -153,7 +149,7 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         "## Theorem 1 repaired",
         f"The same experiments under the repaired law (docs/laws/theorem.md, Theorem A), with the paper's gains, for "
         f"{SETTLED:g} s. Its V falls along every solution.",
-        text.verdicts_markdown(result.repaired, dict.fromkeys(result.repaired, "completed")),
+        text.verdicts_markdown(result.repaired),
         "## A swing-up by another law",
         f"One flight of the inverted law on {result.swing_up.vehicle.name}, from hanging at rest, with rotor limits "
         f"and lag: {text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png). One flight from one start "

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from rich.box import SIMPLE
@@ -87,8 +88,10 @@ def findings_table(findings: Iterable[Finding]) -> Table:
     return table
 
 
-def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str]) -> str:
-    """Return the verdicts by (law, experiment) as a Markdown table; `ends` states how each run ended."""
+def verdicts_markdown(
+    verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str] = MappingProxyType({})
+) -> str:
+    """Return the verdicts by (law, experiment) as a Markdown table; `ends` states how runs that broke off ended."""
     first = next(iter(verdicts.values()))
     rows = [
         ["law", "experiment", "run", *(v.claim for v in first)],
@@ -96,7 +99,7 @@ def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mappin
         ["*criterion*", "", "", *(v.criterion for v in first)],
     ]
     for key, row in verdicts.items():
-        rows.append([*key, ends[key], *(f"{number(v.value)} **{mark(v.holds)}**" for v in row)])
+        rows.append([*key, ends.get(key, "completed"), *(f"{number(v.value)} **{mark(v.holds)}**" for v in row)])
     return markdown_table(rows)
 
 

@@ -41,13 +41,6 @@ class Proof:
     descents: list[Descent]
 
 
-def judge(
-    runs: Mapping[str, Trajectory], theorem: str, claims: Callable[[Trajectory], list[Verdict]]
-) -> dict[Column, list[Verdict]]:
-    """Return the verdicts of `claims` on `runs` by (`theorem`, name of the start)."""
-    return {(theorem, name): claims(run) for name, run in runs.items()}
-
-
 def check_theorems(
     out: str | Path, *, runs: int, seed: int, style: str = "paper", progress: Progress = lambda *_: None
 ) -> Proof:
@@ -75,7 +68,9 @@ def check_theorems(
         progress("flying the experiments", 0, 1)
         hanging, inverted = fly_repaired(), fly_swing_ups()
         descents = [descend(name, runs, seed, progress=partial(progress, f"flying {name}")) for name in laws()]
-        result = Proof(judge(hanging, "A", theorem_a_claims), judge(inverted, "B", theorem_b_claims), descents)
+        theorem_a = {("A", name): theorem_a_claims(run) for name, run in hanging.items()}
+        theorem_b = {("B", name): theorem_b_claims(run) for name, run in inverted.items()}
+        result = Proof(theorem_a, theorem_b, descents)
         progress("drawing", 0, 1)
         _draw(hanging, inverted, folder, style)
         _write(result, folder, runs, seed)
@@ -126,11 +121,6 @@ def _markdown(descents: list[Descent]) -> str:
     return text.markdown_table(rows)
 
 
-def claims_markdown(verdicts: Mapping[Column, list[Verdict]]) -> str:
-    """Return the verdicts on a theorem as a Markdown table."""
-    return text.verdicts_markdown(verdicts, dict.fromkeys(verdicts, "completed"))
-
-
 def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
     """Write the page of `result`, from `runs` flights drawn with `seed`, into `folder`."""
     parts = [
@@ -138,9 +128,9 @@ def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
         f"Flown by flypend {__version__} in the ideal plant: the wrench acts as commanded. "
         "docs/laws/theorem-proof.md has the statements and the proofs.",
         "## Theorem A: the paper's experiments under the repaired law, 30 s",
-        claims_markdown(result.repaired),
+        text.verdicts_markdown(result.repaired),
         "## Theorem B: hehn2011 under the almost global law, 30 s",
-        claims_markdown(result.almost_global),
+        text.verdicts_markdown(result.almost_global),
         "## Does V fall?",
         f"{runs} flights of each law, seed {seed}: |ω|, |ẏ| ≤ 12 rad/s, |ẋ| ≤ 5 m/s, and |x_i| ≤ 10 m where position "
         "is controlled. V rises if it exceeds an earlier value by more than 1e-6 V(0) at samples 0.05 s apart. Only "

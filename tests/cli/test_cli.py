@@ -31,6 +31,7 @@ from flypend.report import paper
 from flypend.settings import runfile
 from flypend.studies.basin import measure_basin
 from tests.few import slow
+from tests.folders import content
 
 ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
 
@@ -41,14 +42,6 @@ def flypend(folder, *arguments):
     return subprocess.run(
         command, cwd=folder, env=ENVIRONMENT, capture_output=True, encoding="utf-8", timeout=120, check=False
     )
-
-
-def content(folder):
-    """Everything below `folder`, hidden or not: name and bytes."""
-    return {
-        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
-        for path in sorted(Path(folder).rglob("*"))
-    }
 
 
 # What is asked and what is told -------------------------------------------------------------------------------------

@@ -162,20 +162,9 @@ def outlines(segments: Any, vehicle: Vehicle, form: Form) -> Any:
 
 
 def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float) -> None:
-    """Draw the letter g with an arrow down the screen, or ⊗ (into the screen) if the view is along gravity.
+    """Draw the letter g, in `fontsize` pt, with an arrow down the screen, or ⊗ if the `view` is along gravity.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes
-        Axes with equal aspect ratio.
-    view : "side" or "axis"
-        As in `camera_for`.
-    at : (2,)
-        Centre of the symbol in units of `ax`.
-    size : float
-        Half the length of the arrow, in units of `ax`.
-    fontsize : float
-        Font size of the letter, pt.
+    In the units of `ax`, whose axes are equal, its centre is `at` (2,), and half of the arrow is `size` long.
     """
     x, y = at
     if view == "axis":

@@ -55,23 +55,10 @@ class Reproduction:
 def reproduce(
     out: str | Path, *, quick: bool = False, style: str = "paper", progress: Progress = lambda *_: None
 ) -> Reproduction:
-    """Fly the paper's experiments and write figures, movies, runs, report.md and report.json into the folder `out`.
+    """Fly the paper's experiments; write figures, movies unless `quick`, runs, report.md and report.json into `out`.
 
-    Parameters
-    ----------
-    out : path
-        The folder; created if it does not exist. If anything fails, nothing is written to it.
-    quick : bool
-        Whether to skip the movies.
-    style : "paper" or "slides"
-        Format of the figures.
-    progress : callable
-        Called with `(task, done, total)` as the work proceeds.
-
-    Raises
-    ------
-    InputError
-        If `out` is not writable or the style is unknown.
+    If anything fails, nothing is written. `progress` is called with (task, done, total). Raises InputError if the
+    folder `out` is not writable or the `style` unknown.
     """
     style_named(style)
     if not quick:

@@ -46,21 +46,8 @@ def check_theorems(
 ) -> Proof:
     """Fly the laws of Theorems A and B and negative controls; write figures, report.md and report.json into `out`.
 
-    Parameters
-    ----------
-    out : path
-        The folder; created if it does not exist. If anything fails, nothing is written to it.
-    runs, seed : int
-        Random flights of each law, and their seed.
-    style : "paper" or "slides"
-        Format of the figures.
-    progress : callable
-        Called with `(task, done, total)` as the work proceeds.
-
-    Raises
-    ------
-    InputError
-        If `out` is not writable or the style is unknown.
+    Each law flies `runs` random starts of `seed`. If anything fails, nothing is written. `progress` is called with
+    (task, done, total). Raises InputError if the folder `out` is not writable or the `style` unknown.
     """
     style_named(style)
     check_starts(runs, seed)

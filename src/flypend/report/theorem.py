@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 
-from rich.box import SIMPLE
 from rich.table import Table
+from rich.text import Text
 
 from flypend import __version__
 from flypend.files import whole
@@ -29,6 +29,7 @@ from flypend.report.text import Column
 from flypend.studies.starts import check_starts
 
 POINTS = 61  # of the basin's grid, per axis
+RISE = "largest rise over V(0), median / worst"
 Progress = Callable[[str, int, int], None]
 
 
@@ -85,21 +86,16 @@ def _draw(hanging: Mapping[str, Trajectory], inverted: Mapping[str, Trajectory],
 
 def descent_table(descents: list[Descent]) -> Table:
     """Return the rows of `descents` as a table for the terminal."""
-    table = Table(title="Does V fall? Wide random starts, ideal plant", title_justify="left", box=SIMPLE, padding=0)
-    for name, end in (("law", "left"), ("converge", "right"), ("end early", "right"), ("V rises", "right")):
-        table.add_column(name, justify=end)  # type: ignore[arg-type]
-    table.add_column("largest rise over V(0), median / worst", justify="right")
+    rows: list[list[text.Cell]] = [["law", "converge", "end early", "V rises", RISE]]
     for row in descents:
-        colour = "red" if row.rising else "green"
-        table.add_row(
-            row.law, f"{row.converged} of {row.runs}", str(row.ended), f"[{colour}]{row.rising} of {row.runs}",
-            f"{row.median_rise:.2g} / {row.worst_rise:.2g}",
-        )  # fmt: skip
-    return table
+        rising = Text(f"{row.rising} of {row.runs}", "red" if row.rising else "green")
+        rise = f"{row.median_rise:.2g} / {row.worst_rise:.2g}"
+        rows.append([row.law, f"{row.converged} of {row.runs}", str(row.ended), rising, rise])
+    return text.terminal_table(rows, "Does V fall? Wide random starts, ideal plant", space=0)
 
 
 def _markdown(descents: list[Descent]) -> str:
-    rows = [["law", "converge (95 %, Wilson)", "end early", "V rises", "largest rise over V(0), median / worst"]]
+    rows = [["law", "converge (95 %, Wilson)", "end early", "V rises", RISE]]
     for row in descents:
         low, high = wilson(row.converged, row.runs)
         share = f"{row.converged} of {row.runs} ({low:.2%} to {high:.2%})"

@@ -377,11 +377,9 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | 
     from flypend.lab.server import serve
     from flypend.settings.laws import law_named
 
-    def announce(url: str) -> None:
-        console.print(f"The laboratory is at {url}", soft_wrap=True)
-
     for name in law:
         tell_how(law_named(name))
+    announce = partial(console.print, "The laboratory is at", soft_wrap=True)
     serve(host, port, browser=browser, laws=law, announce=announce)
 
 

@@ -30,6 +30,7 @@ TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1
 SUM_STYLE: dict[str, Any] = {"facecolor": "none", "edgecolor": GREEN, "linewidth": 0.8, "zorder": 0.9}
 ROTOR_STYLE: dict[str, Any] = {"facecolor": GREEN, "edgecolor": "white", "linewidth": 0.3, "zorder": 3.2}
 
+GHOSTS = 5  # faint rods along the path of the bob
 EYE = 8.0  # camera distance over the reach of the drawing
 ELEVATION = np.deg2rad(12.0)  # of the side camera: level rotors appear as thin ellipses, not lines
 
@@ -93,8 +94,8 @@ def sketch_at(run: Trajectory, times: Any, states: State) -> Sketch:
     return sketch.sketch(centred, run.vehicle, sign * np.interp(times, run.t, run.thrust), forces)
 
 
-def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float, ghosts: int = 5) -> None:
-    """Draw `run` at time `t` around the point `middle` of `ax`, with the preceding path of the bob about the pivot.
+def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float) -> None:
+    """Draw `run` at time `t` around the point `middle` of `ax`, with the path of its bob and faint rods along it.
 
     Parameters
     ----------
@@ -108,8 +109,6 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         Position of the pivot in `ax`.
     t, since : float
         Time of the drawing and start of the bob's path (of a whirling rod, at most the last turn); s.
-    ghosts : int
-        Number of faint rods along the path.
     """
 
     def screen(points: Any) -> Any:
@@ -117,7 +116,7 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
 
     vehicle = run.vehicle
     rate = max(float(geometry.norm(states_at(run, t).y_dot)[0]), 1e-9)
-    states = states_at(run, np.linspace(max(since, t - 2 * np.pi / rate), t, 40 * ghosts + 1))
+    states = states_at(run, np.linspace(max(since, t - 2 * np.pi / rate), t, 40 * GHOSTS + 1))
     bobs = vehicle.rod_length * states.y
     shape = sketch_at(run, t, states[-1])
     behind = depth(camera, shape.bob) > 0

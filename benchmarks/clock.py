@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 REPEATS = 5
@@ -11,21 +11,19 @@ REPEATS = 5
 
 def processor(*tasks: Callable[[], Any], repeats: int = REPEATS) -> list[float]:
     """Seconds of processor time of each task, the least of some repeats, the tasks taking turns."""
-    best = [float("inf")] * len(tasks)
-    for _ in range(repeats):
-        for i, task in enumerate(tasks):
-            begin = time.process_time()
-            task()
-            best[i] = min(best[i], time.process_time() - begin)
-    return best
+    return _least(time.process_time, tasks, repeats)
 
 
 def wall(*tasks: Callable[[], Any], repeats: int = REPEATS) -> list[float]:
     """Seconds on the wall of each task, the least of some repeats, the tasks taking turns."""
+    return _least(time.perf_counter, tasks, repeats)
+
+
+def _least(now: Callable[[], float], tasks: Sequence[Callable[[], Any]], repeats: int) -> list[float]:
     best = [float("inf")] * len(tasks)
     for _ in range(repeats):
         for i, task in enumerate(tasks):
-            begin = time.perf_counter()
+            begin = now()
             task()
-            best[i] = min(best[i], time.perf_counter() - begin)
+            best[i] = min(best[i], now() - begin)
     return best

@@ -20,7 +20,7 @@ from rich.console import Console
 import flypend as fp
 from flypend.cli import terminal
 from flypend.cli.app import app
-from flypend.cli.bars import run_bar, task_bar
+from flypend.cli.bars import progress_bar
 from flypend.files import whole as files
 from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
@@ -31,6 +31,7 @@ from flypend.report import paper
 from flypend.settings import runfile
 from flypend.studies.basin import measure_basin
 from tests.few import slow
+from tests.folders import content
 
 ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
 
@@ -41,14 +42,6 @@ def flypend(folder, *arguments):
     return subprocess.run(
         command, cwd=folder, env=ENVIRONMENT, capture_output=True, encoding="utf-8", timeout=120, check=False
     )
-
-
-def content(folder):
-    """Everything below `folder`, hidden or not: name and bytes."""
-    return {
-        str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
-        for path in sorted(Path(folder).rglob("*"))
-    }
 
 
 # What is asked and what is told -------------------------------------------------------------------------------------
@@ -716,9 +709,9 @@ def test_a_law_of_the_paper_aims_at_a_hanging_rod(call):
 
 
 def test_progress_cannot_be_taken_for_a_result():
-    for bar in (task_bar, run_bar):
+    for rate in (False, True):
         on = Console(file=io.StringIO(), force_terminal=True, width=100)
-        with bar(on) as shown:
+        with progress_bar(on, rate=rate) as shown:
             shown.add_task("flying inverted", total=1200, completed=1200)
         assert "1,200 of 1,200 done" in on.file.getvalue()
         assert "1200/1200" not in on.file.getvalue()

@@ -14,7 +14,6 @@ from packaging.version import Version
 
 import flypend as fp
 from flypend import errors
-from flypend.cli import app as cli
 from flypend.compile.llvm import jit
 
 ROOT = Path(__file__).parents[2]
@@ -36,20 +35,17 @@ EXTRAS = {name: modules_of(listed) for name, listed in PROJECT["optional-depende
 
 
 @pytest.fixture
-def call(tmp_path, monkeypatch, capsys):
-    """The command in `tmp_path`, in which nothing may be flown: its code, and the lines of its complaints."""
+def call(call, monkeypatch, capsys):
+    """The command in an empty folder, in which nothing may be flown: its code, and the lines of its complaints."""
 
     def flown(*_args, **_kwargs):
         pytest.fail("something was flown first")
 
-    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(jit.Native, "__call__", flown)  # whatever is flown by machine code
 
     def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["flypend", *arguments])
-        with pytest.raises(SystemExit) as ended:
-            cli.main()
-        return ended.value.code, capsys.readouterr().err.splitlines()
+        code, _, said = call(*arguments)
+        return code, said.splitlines()
 
     run.complaints = lambda: capsys.readouterr().err.splitlines()
     return run

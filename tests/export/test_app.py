@@ -10,16 +10,14 @@ import struct
 
 import numpy as np
 import pytest
+from boards import commands
 from cbuild import STANDINS, build, run
 from scipy.spatial.transform import Rotation
 
 import flypend as fp
 from benchmarks.app_cost import HEADERS, LAWS, exported, size, stack
-from flypend.board.program import initial_memory
-from flypend.export import fits, records, vectors
+from flypend.export import fits
 from flypend.export.app import AIRFRAMES, limit_rotors
-from flypend.plants.loop import Loop
-from flypend.plants.plant import Sampled
 from tests.few import few, slow
 
 LAW = fp.laws.inverted()
@@ -152,19 +150,6 @@ def _state(seed=3):
     return fp.State(x=(0.1, -0.2, 4.0), x_dot=start.x_dot, R=start.R, omega=start.omega, y=start.y, y_dot=start.y_dot)
 
 
-def _commands(state, target, steps):
-    """Rotor forces (steps, 4) of Python's board that began at hover and sees the same `state` in every period."""
-    loop = Loop(VEHICLE, LAW.bind(VEHICLE), Sampled())
-    path = np.zeros(records.PATH.length)
-    path[:3] = target
-    memory, commands = initial_memory(loop, np.full(4, VEHICLE.weight / 4)), []
-    for _ in range(steps):
-        answer = vectors.board_step(loop)(memory, np.append(0.0, state.packed()), path, [], [])
-        memory, command = (np.array(value).ravel() for value in answer)
-        commands.append(command)
-    return np.array(commands)
-
-
 # When the law flies ---------------------------------------------------------------------------------------------------
 
 
@@ -196,7 +181,7 @@ def test_the_law_commands_what_the_board_does(firmware):
     # In hover, where no rotor is at its limit, and at rest, so that bob and pose are the same whenever they were seen.
     state, target = fp.State(x=(0, 0, 4), omega=(0.1, -0.1, 0), y=(0, 0, 1.0)), (0.05, -0.02, 4.0)
     firmware.begin(fp.State(x=state.x, y=state.y))
-    wanted = _commands(state, target, 3)
+    wanted = commands(VEHICLE, LAW, [state] * 3, [target] * 3)
     assert firmware.told()[4] == 0
     for row in wanted:
         mode, forces = firmware.fly(state, setpoint=target)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from boards import hexarotor
 from numpy.random import default_rng
 
 import flypend as fp
@@ -65,12 +66,7 @@ def test_it_commands_what_the_board_of_python_commands(machine, name, rate):
 
 
 def test_six_rotors_a_full_inertia_matrix_and_other_numbers_at_run_time():
-    angles = np.deg2rad([30, 90, 150, 210, 270, 330])
-    vehicle = VEHICLE.replace(
-        inertia=((4e-3, 2e-4, -1e-4), (2e-4, 5e-3, 3e-4), (-1e-4, 3e-4, 7e-3)),
-        rotor_positions=np.stack([0.2 * np.cos(angles), 0.2 * np.sin(angles), 0 * angles], axis=1),
-        rotor_spins=(1, -1, 1, -1, 1, -1),
-    )
+    vehicle = hexarotor(VEHICLE)
     other = vehicle.replace(mass=0.7, bob_mass=0.06, drag_ratio=0.02, rotor_limits=(0.1, 3.0))
     law = fp.laws.inverted().bind(vehicle)
     changed = replace(fp.laws.inverted().bind(other), computer=law.computer)  # whose numbers are constants of the code

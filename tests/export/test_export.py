@@ -8,6 +8,7 @@ from itertools import pairwise
 import casadi as ca
 import numpy as np
 import pytest
+from boards import hexarotor
 from numpy.random import default_rng
 
 import flypend as fp
@@ -179,12 +180,7 @@ def test_vehicle_and_gains_are_inputs_at_run_time(monkeypatch):
 
 
 def test_six_rotors_and_a_full_inertia_matrix():
-    angles = np.deg2rad([30, 90, 150, 210, 270, 330])
-    vehicle = VEHICLE.replace(
-        inertia=((4e-3, 2e-4, -1e-4), (2e-4, 5e-3, 3e-4), (-1e-4, 3e-4, 7e-3)),
-        rotor_positions=np.stack([0.2 * np.cos(angles), 0.2 * np.sin(angles), 0 * angles], axis=1),
-        rotor_spins=(1, -1, 1, -1, 1, -1),
-    )
+    vehicle = hexarotor(VEHICLE)
     for law in (fp.laws.inverted().bind(vehicle), fp.laws.corrected(yaw_damping=2.0).bind(vehicle)):
         wanted = vectors.vectors(law, vehicle, 200, 2, "double")
         wrench, rotors, status = library(law, vehicle, "double").step(wanted.state, wanted.reference)

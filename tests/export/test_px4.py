@@ -8,15 +8,13 @@ import re
 
 import numpy as np
 import pytest
+from boards import commands
 from cbuild import STANDINS, run
 from px4 import CPP, World, headers, library
 
 import flypend as fp
 from benchmarks.px4 import parameters
-from flypend.board.program import initial_memory
-from flypend.export import fits, records, vectors
-from flypend.plants.loop import Loop
-from flypend.plants.plant import Sampled
+from flypend.export import fits
 
 VEHICLE = fp.vehicle("hehn2011")
 LAW = fp.laws.inverted()
@@ -56,19 +54,6 @@ def _select(world, state=UP, watched=100):
     world.nav = world.MODE
 
 
-def _commands(states, target, loop_rate=RATE):
-    """Rotor forces (len(states), 4) of Python's board that began at hover and sees these states."""
-    loop = Loop(VEHICLE, LAW.bind(VEHICLE), Sampled(rate=loop_rate))
-    path = np.zeros(records.PATH.length)
-    path[:3] = target
-    memory, commands = initial_memory(loop, HOVER), []
-    for state in states:
-        answer = vectors.board_step(loop)(memory, np.append(0.0, state.packed()), path, [], [])
-        memory, command = (np.array(value).ravel() for value in answer)
-        commands.append(command)
-    return np.array(commands)
-
-
 # When it flies --------------------------------------------------------------------------------------------------------
 
 
@@ -103,7 +88,7 @@ def test_the_motors_are_told_what_the_board_commands(module, order):
     # Near hover no rotor is at its limit; the rod stands still, so that its rate is the same whenever it was seen.
     world, moving = World(module, VEHICLE, NUMBERS, order), fp.State(x=UP.x, y=UP.y, omega=(0.1, -0.1, 0.05))
     _select(world)
-    wanted = _commands([moving] * 4, UP.x) / VEHICLE.rotor_limits[1]
+    wanted = commands(VEHICLE, LAW, [moving] * 4, [UP.x] * 4, RATE) / VEHICLE.rotor_limits[1]
     assert np.ptp(wanted, axis=1).min() > 1e-2
     for row in wanted:
         motors = world.fly(moving)
@@ -121,7 +106,7 @@ def test_states_turn_from_north_east_down(world):
         omega=(0.03, -0.05, 0.04), y=UP.y,
     )  # fmt: skip
     _select(world)
-    wanted = _commands([UP, tilted], UP.x) / VEHICLE.rotor_limits[1]
+    wanted = commands(VEHICLE, LAW, [UP, tilted], [UP.x] * 2, RATE) / VEHICLE.rotor_limits[1]
     assert np.all((wanted > 0.1) & (wanted < 0.9))
     assert np.ptp(wanted[1]) > 0.05
     world.fly(UP)
@@ -141,15 +126,9 @@ def test_it_hovers_where_it_began_and_follows_a_fresh_setpoint(world):
         "acceleration": [np.nan] * 3,
     }
     world.put("trajectory_setpoint", **ned)
-    loop_path = np.stack([np.array(UP.x), target])
-    loop = Loop(VEHICLE, LAW.bind(VEHICLE), Sampled(rate=RATE))
-    memory = initial_memory(loop, HOVER)
-    for place in loop_path:
-        path = np.zeros(records.PATH.length)
-        path[:3] = place
-        memory, wanted = vectors.board_step(loop)(memory, np.append(0.0, UP.packed()), path, [], [])
+    wanted = commands(VEHICLE, LAW, [UP, UP], [UP.x, target], RATE)[-1]
     motors = world.fly(UP)[list(ORDER)]
-    assert np.allclose(motors, np.array(wanted).ravel() / VEHICLE.rotor_limits[1], atol=2e-4)
+    assert np.allclose(motors, wanted / VEHICLE.rotor_limits[1], atol=2e-4)
     assert np.ptp(motors) > 1e-3
 
 

@@ -5,12 +5,13 @@ from itertools import product
 
 import numpy as np
 import pytest
-from test_lab_page import expect_flight, setting, shown, slider, until
+from test_lab_page import expect_flight, setting, slider
 
 import flypend as fp
 from benchmarks.frames import AT_REST
 from flypend.lab.alone import chapters_page, page_alone
 from flypend.lab.controls import figures, offer, story
+from tests.browser import shown, until
 from tests.few import slow
 
 WIDE = {"width": 1280, "height": 800}

@@ -2,7 +2,6 @@
 
 import json
 import re
-import time
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from flypend.lab.setting import setting_of
 from flypend.laws import inverted
 from flypend.model import vehicle
 from flypend.settings.runfile import run_file
+from tests.browser import shown, until
 
 OFFER = offer()
 WIDE, NARROW = {"width": 1000, "height": 620}, {"width": 390, "height": 844}
@@ -42,19 +42,6 @@ def visit(offline, server):
         return page
 
     return open_
-
-
-def until(page, condition, argument=None):
-    for _ in range(800):
-        if page.evaluate(condition, argument):
-            return
-        time.sleep(0.03)
-    raise AssertionError(condition)
-
-
-def shown(page):
-    """Wait for the flight of the present setting."""
-    until(page, "() => window.flypend && flypend.number() > 0 && flypend.shown() === flypend.number()")
 
 
 def setting(page):

@@ -2,13 +2,13 @@
 
 import json
 import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import flypend as fp
+from tests.browser import opened, until
 from tests.few import each_once
 
 SIZE = {"width": 900, "height": 600}
@@ -25,19 +25,9 @@ def run():
 @pytest.fixture
 def visit(offline, tmp_path, run):
     def open_(query="", *, live=True, **setting):
-        run.to_html(tmp_path / "page.html", live=live)
-        page = offline((tmp_path / "page.html").as_uri() + query, **{"viewport": SIZE, "has_touch": True} | setting)
-        until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
-        return page
+        return opened(offline, run, tmp_path, query, {"viewport": SIZE, "has_touch": True} | setting, live=live)
 
     return open_
-
-
-def until(page, condition, seconds=60):
-    end = time.monotonic() + seconds
-    while not page.evaluate(condition):
-        assert time.monotonic() < end, condition
-        time.sleep(0.03)
 
 
 def game(page, name):

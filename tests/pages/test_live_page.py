@@ -21,11 +21,11 @@ from flypend.lab.setting import Poke
 from flypend.model.state import convert_packed
 from flypend.plants import MOTION_CAPTURE, plant
 from flypend.plants.sensors import SUITES
+from tests.browser import SMALL, shown, until
 from tests.few import few, slow
 from tests.flight.test_metrics import flight as constructed
 
 LAW = fp.laws.inverted()
-SMALL = {"width": 900, "height": 520}
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 
 
@@ -49,19 +49,6 @@ def visit(offline, tmp_path):
 def run():
     start = fp.State(y=(0.6, 0, 0.8), omega=(0.5, -1, 2), x=(0.3, -0.2, 0.1))
     return fp.simulate(fp.vehicle("hehn2011"), LAW, start, 6.0)
-
-
-def until(page, condition, argument=None):
-    for _ in range(800):
-        if page.evaluate(condition, argument):
-            return
-        time.sleep(0.03)
-    raise AssertionError(condition)
-
-
-def shown(page):
-    """Wait for the flight of the present setting."""
-    until(page, "() => window.flypend && flypend.number() > 0 && flypend.shown() === flypend.number()")
 
 
 def poses(page, times):

@@ -1,13 +1,11 @@
 """Pages play by themselves when they open, from disk and without a network, until somebody takes over."""
 
-import time
-
 import numpy as np
 import pytest
 
 import flypend as fp
+from tests.browser import opened, until
 
-SMALL = {"width": 900, "height": 520}
 MACHINE = fp.vehicle("hehn2011")
 
 
@@ -19,19 +17,9 @@ def swing():
 @pytest.fixture
 def visit(offline, tmp_path):
     def open_(run, *, live=False, **setting):
-        run.to_html(tmp_path / "page.html", live=live)
-        page = offline((tmp_path / "page.html").as_uri(), **{"viewport": SMALL} | setting)
-        until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
-        return page
+        return opened(offline, run, tmp_path, setting=setting, live=live)
 
     return open_
-
-
-def until(page, condition, seconds=30):
-    end = time.monotonic() + seconds
-    while not page.evaluate(condition):
-        assert time.monotonic() < end, condition
-        time.sleep(0.03)
 
 
 @pytest.mark.parametrize("live", [False, True])

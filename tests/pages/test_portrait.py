@@ -1,7 +1,5 @@
 """The phase portrait of the pages: the rod on the sphere of its directions, in a real browser without a screen."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -9,6 +7,7 @@ import flypend as fp
 from benchmarks.frames import AT_REST, UNDRAWN
 from flypend import palette
 from flypend.paper import experiment
+from tests.browser import begun, until
 
 WIDE, NARROW = {"width": 1280, "height": 720}, {"width": 390, "height": 844}
 # The middle of every dot, in CSS pixels from the middle of the disc, x to the right and y up; and half the canvas.
@@ -62,7 +61,7 @@ def visit(chromium, tmp_path):
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.add_init_script(UNDRAWN + before)  # of the scene: the portrait is a canvas of its own
         page.goto((tmp_path / "page.html").as_uri())
-        until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
+        begun(page)
         page.evaluate(AT_REST)
         return page
 
@@ -70,14 +69,6 @@ def visit(chromium, tmp_path):
     for context in contexts:
         context.close()
     assert complaints == []
-
-
-def until(page, condition):
-    for _ in range(400):
-        if page.evaluate(condition):
-            return
-        time.sleep(0.03)
-    raise AssertionError(condition)
 
 
 def directions(run, times):

@@ -19,10 +19,10 @@ from flypend import geometry
 from flypend.flight.verdict import verdict
 from flypend.pages import replay
 from flypend.paper import experiment
+from tests.browser import SMALL, picture, until
 
 LAW = fp.laws.inverted()
 WIDE, NARROW = {"width": 1280, "height": 720}, {"width": 390, "height": 844}
-SMALL = {"width": 900, "height": 520}  # drawn fast enough in software
 
 
 @pytest.fixture
@@ -66,15 +66,6 @@ def singular():
     return fp.simulate(case.vehicle, case.law("printed"), case.start, 6.5, plant="ideal")
 
 
-def until(page, condition):
-    """Wait; `wait_for_function` would compile text in the page, which the page forbids."""
-    for _ in range(600):
-        if page.evaluate(condition):
-            return
-        time.sleep(0.05)
-    raise AssertionError(condition)
-
-
 def pose(page, t, i=0):
     page.evaluate("t => flypend.seek(t)", t)
     return {name: np.array(value) for name, value in page.evaluate("i => flypend.pose(i)", i).items()}
@@ -91,11 +82,6 @@ def screen(page, i=0):
     else:
         raise AssertionError("the camera does not arrive")
     return np.array(after["pivot"]), np.array(after["bob"])
-
-
-def picture(page):
-    page.evaluate("flypend.screen(0)")
-    return np.asarray(Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB")).astype(int)
 
 
 # It shows the run --------------------------------------------------------------------------------------------------

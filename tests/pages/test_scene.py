@@ -2,48 +2,29 @@
 
 import json
 import re
-import time
-from io import BytesIO
 from urllib.parse import quote
 
 import numpy as np
 import pytest
-from PIL import Image
 
 import flypend as fp
 from benchmarks.frames import AT_REST
 from flypend.flight.live import live_data
 from flypend.geometry import unit
+from tests.browser import opened, picture, until
 
 LAW = fp.laws.inverted()
-SMALL = {"width": 900, "height": 520}
 MACHINE = fp.vehicle("hehn2011")
 
 
 @pytest.fixture
 def visit(offline, tmp_path):
     def open_(run, address="", *, drawn=False, **options):
-        run.to_html(tmp_path / "page.html", **options)
-        file = (tmp_path / "page.html").as_uri()
-        page = offline(file + address, drawn=drawn, viewport=SMALL, color_scheme="light")
-        until(page, "() => window.flypend && flypend.frames().count > 0 && (!flypend.shown || flypend.shown() > 0)")
+        page = opened(offline, run, tmp_path, address, {"drawn": drawn, "color_scheme": "light"}, **options)
         page.evaluate(AT_REST)
         return page
 
     return open_
-
-
-def until(page, condition):
-    for _ in range(600):
-        if page.evaluate(condition):
-            return
-        time.sleep(0.05)
-    raise AssertionError(condition)
-
-
-def picture(page):
-    page.evaluate("flypend.screen(0)")
-    return np.asarray(Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB")).astype(int)
 
 
 def hovering(mount="gimbal"):

@@ -1,13 +1,11 @@
 """Windows that a flight passes are drawn in its replay, where they are."""
 
-from io import BytesIO
-
 import numpy as np
 import pytest
-from PIL import Image
 
 import flypend as fp
 from benchmarks.frames import AT_REST
+from tests.browser import opened, picture
 
 VEHICLE = fp.vehicle("hehn2011")
 DOOR = fp.Window(centre=(0.5, 0, 0.2), width=0.6, height=0.8)
@@ -18,26 +16,17 @@ def still():
     return fp.simulate(VEHICLE, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 1.0)
 
 
-def seen(chromium, run, folder, **options):
+def seen(offline, run, folder, **options):
     """The picture of a replay, seen along the wall's normal."""
-    path = folder / "page.html"
-    run.to_html(path, **options)
-    page = chromium.new_page(viewport={"width": 900, "height": 520})
-    complaints = []
-    page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.goto(path.as_uri())
-    page.wait_for_selector("main")
+    page = opened(offline, run, folder, setting={"drawn": True}, **options)
     page.evaluate(AT_REST)
     page.evaluate("flypend.camera('side')")
     page.wait_for_timeout(1500)
-    picture = Image.open(BytesIO(page.locator(".picture").screenshot())).convert("RGB")
-    page.close()
-    assert complaints == []
-    return np.asarray(picture).astype(int)
+    return picture(page)
 
 
-def test_a_wall_is_drawn_around_its_opening(chromium, still, tmp_path):
-    without, within = (seen(chromium, still, tmp_path, windows=some) for some in ((), (DOOR,)))
+def test_a_wall_is_drawn_around_its_opening(offline, still, tmp_path):
+    without, within = (seen(offline, still, tmp_path, windows=some) for some in ((), (DOOR,)))
     changed = np.mean(np.any(np.abs(within - without) > 6, axis=-1))
     assert 0.02 < changed < 0.9
 

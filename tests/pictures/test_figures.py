@@ -172,7 +172,7 @@ def test_the_side_camera_looks_across_the_motion_and_travel_goes_to_the_right(ru
     assert (states.x[-1] - states.x[0]) @ camera.right > 0
     still = dataclasses.replace(run, y=np.tile([0.0, 0, 1], (len(run.t), 1)), y_dot=np.zeros((len(run.t), 3)))
     travel = (states.x[-1] - states.x[0])[:2]  # a rod that stays vertical leaves the travel of the vehicle
-    assert drawing.main_direction(still)[:2] @ travel > 0.99 * np.linalg.norm(travel)
+    assert sketch.main_direction(still.states.in_frame(still.e3))[:2] @ travel > 0.99 * np.linalg.norm(travel)
 
 
 def test_states_between_the_samples_of_a_loaded_run(run):

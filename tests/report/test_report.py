@@ -26,17 +26,10 @@ from flypend.paper.defects import DEFECTS, findings
 from flypend.report import paper, text
 from flypend.report.flight import movie_tasks, write_flight
 from flypend.report.paper import Reproduction, reproduce
+from tests.folders import content
 
 LAWS = ("printed", "without beta", "corrected")
 GROUPS = {"printed": "printed", "without beta": "without-beta", "corrected": "corrected"}
-
-
-def content(folder):
-    """Everything below `folder`, hidden or not: name and bytes."""
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None
-        for path in sorted(Path(folder).rglob("*"))
-    }
 
 
 # Staging ------------------------------------------------------------------------------------------------------------

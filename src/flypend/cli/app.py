@@ -377,11 +377,9 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | 
     from flypend.lab.server import serve
     from flypend.settings.laws import law_named
 
-    def announce(url: str) -> None:
-        console.print(f"The laboratory is at {url}", soft_wrap=True)
-
     for name in law:
         tell_how(law_named(name))
+    announce = partial(console.print, "The laboratory is at", soft_wrap=True)
     serve(host, port, browser=browser, laws=law, announce=announce)
 
 
@@ -398,18 +396,10 @@ def write_laboratory(html: Path, served: list[str]) -> None:
 
 
 for _command in (
-    theorem.theorem,
-    planning.plan,
-    *learning.COMMANDS,
-    *studies.COMMANDS,
-    *identification.COMMANDS,
-    *check.COMMANDS,
-    *viewing.COMMANDS,
-    *listing.COMMANDS,
-    *examples.COMMANDS,
-    *cache.COMMANDS,
-    *export.COMMANDS,
-):
+    theorem.theorem, planning.plan, learning.learn, studies.sweep, studies.draw_map, studies.tune,
+    identification.vehicle, identification.identify, check.check, viewing.replay, viewing.movie, viewing.figures,
+    listing.laws, listing.vehicles, examples.examples, cache.cache, export.export_c, export.export_app,
+):  # fmt: skip
     app.add_command(_command)
 
 

@@ -29,13 +29,7 @@ class _Done(ProgressColumn):
         return Text("" if task.total is None else f"{task.completed:,.0f} of {task.total:,.0f} done")
 
 
-def task_bar(on: Console) -> Progress:
-    """Return an empty progress bar with the elapsed time."""
-    columns = (TextColumn("{task.description}"), BarColumn(), _Done(), TimeElapsedColumn())
-    return Progress(*columns, console=on, transient=True)
-
-
-def run_bar(on: Console) -> Progress:
-    """Return an empty progress bar with the rate and the remaining time."""
-    columns = (TextColumn("{task.description}"), BarColumn(), _Done(), _Rate(), TimeRemainingColumn())
-    return Progress(*columns, console=on, transient=True)
+def progress_bar(on: Console, *, rate: bool = False) -> Progress:
+    """Return an empty progress bar, with the `rate` of runs and the remaining time, or else with the elapsed time."""
+    times = (_Rate(), TimeRemainingColumn()) if rate else (TimeElapsedColumn(),)
+    return Progress(TextColumn("{task.description}"), BarColumn(), _Done(), *times, console=on, transient=True)

@@ -43,6 +43,3 @@ def move(folder: Path) -> None:
 
 def _megabytes(size: float) -> str:
     return f"{size / 1e6:.3g} MB"
-
-
-COMMANDS = (cache,)

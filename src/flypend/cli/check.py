@@ -95,6 +95,3 @@ def check(
     console.print(f"The report{' and its figure are' if figures else ' is'} in {bold(out)}.")
     if not all(each.ok for each in checks.values()):
         sys.exit(1)
-
-
-COMMANDS = (check,)

@@ -54,6 +54,3 @@ def _check_free(out: Path, contents: dict[PurePosixPath, bytes]) -> None:
         place = out / name
         if place.is_file() and place.read_bytes() != content:
             raise InputError(str(place), "no file, or the example itself (--force overwrites it)", "another file")
-
-
-COMMANDS = (examples,)

@@ -115,6 +115,3 @@ def _symbolic(name: str) -> Law:
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{name}, which is not{because}")
     return chosen
-
-
-COMMANDS = (export_c, export_app)

@@ -123,6 +123,3 @@ def identify(
     if rehearsal.asked:
         console.print(f"The search began from {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")
     console.print(f"The machine is in {bold(out)}.")
-
-
-COMMANDS = (vehicle, identify)

@@ -76,6 +76,3 @@ def learn(
     console.print(comparison_table(comparison))
     best = best_of(comparison.ensembles)
     console.print(f"The best law here is {best}." if best else "None of these laws succeeds from 90 % of the starts.")
-
-
-COMMANDS = (learn,)

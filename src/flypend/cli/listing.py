@@ -95,6 +95,3 @@ def _table(*names: str) -> Any:
         number = 0 < place < len(names) - (names[-1] == "meaning") - (names[-2] == "unit")
         found.add_column(name, justify="right" if number else "left")
     return found
-
-
-COMMANDS = (laws, vehicles)

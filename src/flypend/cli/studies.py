@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -23,16 +21,10 @@ from flypend.cli.options import (
     plant_asked,
     refuse_idle,
 )
-from flypend.cli.terminal import (
-    bold,
-    complaints,
-    console,
-    import_in_background,
-    is_stepped,
-    lines,
-    resumable,
-    tell_how,
-)
+from flypend.cli.terminal import bold, console, counter, import_in_background, is_stepped, resumable, tell_how
+
+if TYPE_CHECKING:
+    from flypend.studies.sweep import Study
 
 REPORTED = 2000  # starts of the report where no study names them
 workers_option = click.option("--workers", type=click.IntRange(min=1), help="Number of cores to use; default all.")
@@ -64,14 +56,10 @@ def sweep(
     to that of an uninterrupted one.
     """
     from flypend.studies.sweep import study as study_from
-    from flypend.studies.sweep import sweep as fly
 
     made = study_from(study, law)
-    tell_how(made.law)
     processes = processes or (scheduler is None and is_stepped(made.law))
-    with resumable(), run_counter(f"flying {made.law.name}") as tell:
-        flown = fly(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force, progress=tell)
-    console.print(f"{format_rate(int(flown.success.sum()), made.runs)} Runs are in {bold(out)}.")
+    fly_study(made, out, scheduler=scheduler, workers=workers, processes=processes, force=force)
 
 
 @dataclass(frozen=True)
@@ -126,21 +114,19 @@ def draw_map(
     if what is not None:
         why = "beside a study or a store, which has its own"
         refuse_idle("vehicle", "plant", "sensors", "floor", "runs", "seed", "duration", why=why)
-    content = None
+    made, store = None, what
     if own.law is not None:
         plant = plant_asked(own.plant, own.sensors, own.floor)
-        content = standard(own.law, own.vehicle, plant, own.runs, own.seed, own.duration)
+        made = study_from(standard(own.law, own.vehicle, plant, own.runs, own.seed, own.duration))
     elif what is not None and what.suffix == ".toml":
-        content = study_from(what).settings
+        made = study_from(what)
     else:
         refuse_idle("workers", "force", why="beside a store, whose runs are flown")
-    if content is not None:
-        check_plane(study_from(content), x, y)
-    store = what
-    if content is not None:
+    if made is not None:
+        check_plane(made, x, y)
         store = out.with_suffix(".zarr")
         import_in_background(lambda: import_module("flypend.pictures.maps"))
-        sweep_into(store, content, workers, force)
+        fly_study(made, store, workers=workers, processes=is_stepped(made.law), force=force)
     assert store is not None
     from flypend.pictures.maps import map_figure
 
@@ -183,8 +169,9 @@ def tune(
         made = replace(made, tune={"bands": DRAWN, "runs": 10 * DRAWN, **made.tune})
     tell_how(made.law)
     check_writable(out)
-    with resumable(), run_counter("generations") as tell:
-        result = search(made, workers=workers, costs=out / "costs.jsonl", progress=tell)
+    with resumable(), counter(rate=True) as tell:
+        progress = partial(tell, "generations")
+        result = search(made, workers=workers, costs=out / "costs.jsonl", progress=progress)
     write_tuned(result, out)
     console.print(f"before: {summarise(result.before)}", markup=False)
     console.print(f"after:  {summarise(result.after)}", markup=False)
@@ -192,15 +179,13 @@ def tune(
     console.print(f"Results are in {bold(out)}.")
 
 
-def sweep_into(store: Path, content: dict[str, Any], workers: int | None, force: bool) -> None:
-    """Fly the study with this `content` into `store`, show a progress bar, and print the success rate."""
-    from flypend.studies.sweep import study as study_from
+def fly_study(made: Study, store: Path, **options: Any) -> None:
+    """Fly the study `made` into `store` with these `options` of `studies.sweep`, and print the success rate."""
     from flypend.studies.sweep import sweep as fly
 
-    made = study_from(content)
     tell_how(made.law)
-    with resumable(), run_counter(f"flying {made.law.name}") as tell:
-        flown = fly(made, store, workers=workers, processes=is_stepped(made.law), force=force, progress=tell)
+    with resumable(), counter(rate=True) as tell:
+        flown = fly(made, store, **options, progress=partial(tell, f"flying {made.law.name}"))
     console.print(f"{format_rate(int(flown.success.sum()), made.runs)} Runs are in {bold(store)}.")
 
 
@@ -211,29 +196,3 @@ def format_rate(successes: int, runs: int) -> str:
     low, high = wilson(successes, runs)
     share = 100 * successes / runs
     return f"{successes} of {runs} runs succeed: {share:.4g} % (95 % interval {100 * low:.4g} to {100 * high:.4g} %)."
-
-
-@contextmanager
-def run_counter(name: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield the callback `(done, total)` of a progress bar with rate and remaining time, or of a line now and then."""
-    on = complaints()
-    if not on.is_terminal:
-        yield partial(lines(on), name)
-        return
-    from rich.markup import escape
-    from rich.progress import TaskID
-
-    from flypend.cli.bars import run_bar
-
-    with run_bar(on) as bar:
-        tasks: list[TaskID] = []
-
-        def tell(done: int, total: int) -> None:
-            if not tasks:  # runs flown earlier do not count towards the rate
-                tasks.append(bar.add_task(escape(name), total=total, completed=done))
-            bar.update(tasks[0], completed=done)
-
-        yield tell
-
-
-COMMANDS = (sweep, draw_map, tune)

@@ -36,17 +36,26 @@ def say(line: str) -> None:
 
 
 @contextmanager
-def counter() -> Iterator[Callable[[str, int, int], None]]:
-    """Yield the callback `(name, done, total)` of a progress bar on stderr, or of a line now and then."""
+def counter(*, rate: bool = False) -> Iterator[Callable[[str, int, int], None]]:
+    """Yield the callback `(name, done, total)` of a progress bar on stderr, or of a line now and then.
+
+    With `rate` the bar shows runs per second and the time left.
+    """
     on = complaints()
     if not on.is_terminal:
         yield lines(on)
         return
-    from flypend.cli.bars import task_bar  # slow to import
+    from flypend.cli.bars import progress_bar  # slow to import
 
-    with task_bar(on) as bar:
+    with progress_bar(on, rate=rate) as bar:
         task = bar.add_task("starting", total=None)
-        yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total)
+
+        def tell(what: str, done: int, total: int) -> None:
+            if bar.tasks[task].total is None:  # runs flown earlier do not count towards the rate
+                bar.reset(task, completed=done)
+            bar.update(task, description=escape(what), completed=done, total=total)
+
+        yield tell
 
 
 def lines(on: Console) -> Callable[[str, int, int], None]:

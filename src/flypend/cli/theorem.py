@@ -17,9 +17,8 @@ if TYPE_CHECKING:
 @click.command()
 @out_option("theorem-out")
 @click.option(
-    "--runs", type=click.IntRange(min=1), default=200, show_default="200; 100000 with --basin",
-    help="Random flights of each law.",
-)  # fmt: skip
+    "--runs", type=click.IntRange(min=1), show_default="200; 100000 with --basin", help="Random flights of each law."
+)
 @click.option("--seed", type=click.IntRange(min=0), default=7, help="Seed of the random starts.")
 @click.option("--basin", is_flag=True, help="Count the random starts that end in the certified set, within limits.")
 @click.option("--lag", is_flag=True, help="With --basin: rotors lag as well.")
@@ -27,10 +26,9 @@ if TYPE_CHECKING:
 @click.option("--mount", help="With --basin: what carries the rod, gimbal or hub; default the vehicle's own.")
 @vehicle_option
 @style_option
-@click.pass_context
 def theorem(
-    context: click.Context, out: Path, runs: int, seed: int, basin: bool, lag: bool, hanging: bool, mount: str | None,
-    vehicle: str, style: str,
+    out: Path, runs: int | None, seed: int, basin: bool, lag: bool, hanging: bool, mount: str | None, vehicle: str,
+    style: str,
 ) -> None:  # fmt: skip
     """Fly the laws of Theorems A and B and check every claim: Theorem 1 repaired, and the inverted pendulum.
 
@@ -43,20 +41,19 @@ def theorem(
     """
     if basin:
         refuse_idle("style", why="with --basin, which draws nothing")
-        given = context.get_parameter_source("runs") is click.core.ParameterSource.COMMANDLINE
         from flypend import model
 
         machine = model.vehicle(vehicle)
         if mount is not None:
             machine = machine.replace(mount=mount)
-        _basin(out, runs if given else 100_000, seed, machine, lag, "hanging" if hanging else "random")
+        _basin(out, runs or 100_000, seed, machine, lag, "hanging" if hanging else "random")
         return
     refuse_idle("vehicle", "lag", "hanging", "mount", why="without --basin")
     from flypend.report.text import summary_table
     from flypend.report.theorem import check_theorems, descent_table
 
     with counter() as tell:
-        result = check_theorems(out, runs=runs, seed=seed, style=style, progress=tell)
+        result = check_theorems(out, runs=runs or 200, seed=seed, style=style, progress=tell)
     console.print(summary_table(result.repaired, title="Theorem A: Theorem 1 repaired, the paper's experiments"))
     console.print(summary_table(result.almost_global, title="Theorem B: inverted from almost every start"))
     console.print(descent_table(result.descents))

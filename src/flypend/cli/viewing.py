@@ -82,6 +82,3 @@ def figures(run: Path, out: Path, style: str, font: str, titles: bool) -> None:
     with staging(out) as folder:
         draw(figure_tasks(flight, folder, style=form))
     console.print(f"Figures are in {bold(out)}.")
-
-
-COMMANDS = (replay, movie, figures)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Callable, Sequence
 from itertools import product
 from types import SimpleNamespace
 from typing import Any
 
-from flypend import errors, palette
+from flypend import errors
 from flypend.flight.live import draw_starts, live_loop
 from flypend.flight.live_engine import engine_facts
 from flypend.flight.verdict import goal
@@ -65,13 +64,8 @@ def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str,
     for number, setting in enumerate(settings):
         tell(_kind(setting), number, len(settings))
         engines[_kind(setting)] = _engine(setting_of(setting))
-    data = {
-        "title": title, "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], "engines": engines,
-        "offer": {**_available(every, settings, engines), **draw_starts()},
-    }  # fmt: skip
-    return replay.PAGE.format(
-        policy=html.escape(replay.LIVE_POLICY), title=title, data=replay.embed(data), program=replay.program("lab")
-    )
+    choices = {**_available(every, settings, engines), **draw_starts()}
+    return replay.document("lab", replay.LIVE_POLICY, {"title": title, "engines": engines, "offer": choices})
 
 
 def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[str, Any]:

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from flypend import palette
 from flypend.lab.own import OwnLaws
 from flypend.lab.setting import LONGEST, Setting
 from flypend.laws import law_names
@@ -170,24 +169,6 @@ def _step(
     }  # fmt: skip
 
 
-PAGE = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="icon" href="data:,">
-<title>flypend laboratory</title>
-</head>
-<body>
-<noscript>The laboratory needs JavaScript.</noscript>
-<script id="flypend-data" type="application/json">{data}</script>
-<script src="lab.js"></script>
-</body>
-</html>
-"""
-
-
 def page(own: OwnLaws | None = None) -> str:
     """Return the page as HTML, offering the custom laws `own`."""
-    data = {"title": "flypend laboratory", "layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": []}
-    return PAGE.format(data=replay.embed({**data, "offer": offer(own)}))
+    return replay.document("lab", "", {"title": "flypend laboratory", "offer": offer(own)})

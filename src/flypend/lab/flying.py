@@ -138,17 +138,14 @@ def _after(
     elif duration == 0 and isinstance(machine, Tuned):
         return _part_of(machine, gains, np.zeros(1), state.packed()[None], Outcome("completed", 0.0))
     part = flight.replace(starts=state, duration=duration, seed=(flight.seed or 0) + number)
-    return _part(machine, gains, part, rotors)
-
-
-def _part(machine: Tuned | Stepped, gains: Any, flight: Flight, rotors: Any) -> Part:
-    """Fly one part of a flight by the kernel of `machine`, or step by step."""
     if isinstance(machine, Stepped):
-        return _step_part(flight.replace(law=machine.law), rotors)
+        assert isinstance(part.plant, Sampled)
+        stepped = fly_stepwise(part.replace(law=machine.law), rotors).at(part.moments * part.plant.rate)
+        return _part_from(stepped, part, part.plant)
     if isinstance(machine.kernel, SampledKernel):
-        samples = sampled_samples(machine.kernel, flight, gains, rotors)
-        return _part_from(samples, flight, machine.kernel.loop.sampled)
-    return _ideal_part(machine, machine.kernel, gains, flight)
+        samples = sampled_samples(machine.kernel, part, gains, rotors)
+        return _part_from(samples, part, machine.kernel.loop.sampled)
+    return _ideal_part(machine, machine.kernel, gains, part)
 
 
 def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight) -> Part:
@@ -168,13 +165,6 @@ def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) 
     wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
     rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
     return Part(t, packed, rotors, wrench, outcome)
-
-
-def _step_part(flight: Flight, rotors: Any) -> Part:
-    """Fly a part step by step in Python."""
-    plant = flight.plant
-    assert isinstance(plant, Sampled)
-    return _part_from(fly_stepwise(flight, rotors).at(flight.moments * plant.rate), flight, plant)
 
 
 def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:

@@ -18,9 +18,8 @@ from typing import Any
 import numpy as np
 
 from flypend import errors, palette
-from flypend.geometry import quat_xyzw_from_rotation
+from flypend.geometry import norm, quat_xyzw_from_rotation
 from flypend.model import State, Vehicle
-from flypend.model.state import E3Direction
 from flypend.pages import sketch
 
 RATE = 100.0  # samples per second of flight
@@ -42,17 +41,24 @@ PAGE = """<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<link rel="icon" href="data:,">
+{policy}<link rel="icon" href="data:,">
 <title>{title}</title>
 </head>
 <body>
-<noscript>This replay needs JavaScript.</noscript>
+<noscript>This page needs JavaScript.</noscript>
 <script id="flypend-data" type="application/json">{data}</script>
-<script>{program}</script>
+{script}
 </body>
 </html>
 """
+
+
+def document(name: str, policy: str, data: dict[str, Any]) -> str:
+    """Return the HTML of a page whose script `name` shows `data`; without a `policy` a server sends both."""
+    data = {"layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], **data}
+    meta = f'<meta http-equiv="Content-Security-Policy" content="{html.escape(policy)}">\n' if policy else ""
+    script = f"<script>{program(name)}</script>" if policy else f'<script src="{name}.js"></script>'
+    return PAGE.format(policy=meta, title=html.escape(str(data["title"])), data=embed(data), script=script)
 
 
 def page(
@@ -96,7 +102,6 @@ def page(
         "title": title or _title(runs),
         "layout": errors.one_of("layout", layout, ("overlay", "beside")),
         "speed": errors.number("speed", speed, above=0),
-        "palette": palette.PAGE,
         "runs": [
             {**pack(run, verdict, MOST // len(runs)), **name}
             for run, verdict, name in zip(runs, verdicts, names(runs), strict=True)
@@ -105,11 +110,7 @@ def page(
     if windows:
         several = windows if isinstance(windows, Sequence) else [windows]
         data["runs"][0]["windows"] = [_opening(window) for window in several]
-    policy, name = (POLICY, "replay") if live is None else (LIVE_POLICY, "lab")
-    return PAGE.format(
-        policy=html.escape(policy), title=html.escape(str(data["title"])), data=embed(data | (live or {})),
-        program=program(name),
-    )  # fmt: skip
+    return document("replay", POLICY, data) if live is None else document("lab", LIVE_POLICY, data | live)
 
 
 def _opening(window: Opening) -> dict[str, Any]:
@@ -156,7 +157,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "completed": run.outcome.status == "completed",
         "verdict": told,
         "hold": hold,
-        "direction": sketch.main_direction(_upright(states, run.e3)).tolist(),
+        "direction": sketch.main_direction(states.in_frame(run.e3)).tolist(),
         "vehicle": describe_machine(vehicle),
         "floor": run.flight.plant.floor if run.flight else None,
         "columns": {name: in_base64(values) for name, values in columns.items()},
@@ -171,7 +172,7 @@ def describe_machine(vehicle: Vehicle) -> dict[str, Any]:
         "rod_end": vehicle.reach,
         "weight": vehicle.weight,
         "gravity": vehicle.gravity,
-        "rotor_limits": _finite(vehicle.rotor_limits),
+        "rotor_limits": [float(limit) if np.isfinite(limit) else None for limit in vehicle.rotor_limits],
         "rotor_positions": np.asarray(vehicle.rotors_from_pivot).tolist(),
         "rotor_spins": np.asarray(vehicle.rotor_spins).tolist(),
         "rotor_radius": sketch.disc_radius(vehicle),
@@ -213,11 +214,6 @@ def _tilt(run: Run) -> float:
     return float(np.degrees(np.arccos(np.clip(up * run.y[0][2], -1.0, 1.0))))
 
 
-def _finite(limits: Sequence[float]) -> list[float | None]:
-    """Limits as JSON has them: None where there is none."""
-    return [float(limit) if np.isfinite(limit) else None for limit in limits]
-
-
 def _title(runs: Sequence[Run]) -> str:
     laws = list(dict.fromkeys(run.law for run in runs))
     vehicles = list(dict.fromkeys(_machine(run.vehicle) for run in runs))
@@ -228,16 +224,12 @@ def _machine(vehicle: Vehicle) -> str:
     return vehicle.name if vehicle.mount == "gimbal" else f"{vehicle.name}, {vehicle.mount}"
 
 
-def _upright(states: State, e3: E3Direction) -> State:
-    return states.in_frame(e3)
-
-
 def _sample(run: Run, most: int) -> tuple[Any, State]:
     """Times and states to show: from dense output if available, otherwise a subset of the samples."""
     times, states = np.asarray(run.t, dtype=float), run.states
     if len(times) < 2:
         return times, states
-    turning = np.maximum(_length(states.y_dot), _length(states.omega))
+    turning = np.maximum(norm(states.y_dot), norm(states.omega))
     rate = np.maximum(RATE, np.minimum(turning, 1e6) / FINEST)
     passed = np.concatenate([[0.0], np.cumsum(np.diff(times) * (rate[1:] + rate[:-1]) / 2)])
     count = int(np.clip(np.ceil(passed[-1] - 1e-6), 1, most - 1)) + 1
@@ -247,10 +239,6 @@ def _sample(run: Run, most: int) -> tuple[Any, State]:
         return wanted, run.at(np.clip(wanted, times[0], times[-1]))
     keep = np.unique(np.clip(np.searchsorted(times, wanted - 1e-9), 0, len(times) - 1))
     return times[keep], states[keep]
-
-
-def _length(vectors: Any) -> Any:
-    return np.sqrt(np.sum(np.square(vectors), axis=-1))
 
 
 def in_base64(values: Any) -> str:

@@ -30,6 +30,7 @@ TRAIL: dict[str, Any] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (3, 1
 SUM_STYLE: dict[str, Any] = {"facecolor": "none", "edgecolor": GREEN, "linewidth": 0.8, "zorder": 0.9}
 ROTOR_STYLE: dict[str, Any] = {"facecolor": GREEN, "edgecolor": "white", "linewidth": 0.3, "zorder": 3.2}
 
+GHOSTS = 5  # faint rods along the path of the bob
 EYE = 8.0  # camera distance over the reach of the drawing
 ELEVATION = np.deg2rad(12.0)  # of the side camera: level rotors appear as thin ellipses, not lines
 
@@ -57,15 +58,10 @@ def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, dist
     """
     if errors.one_of("view", view, VIEWS) == "axis":
         return Camera(direction=-geometry.E3, up=geometry.E2, distance=distance)
-    right = main_direction(run)
+    right = sketch.main_direction(run.states.in_frame(run.e3))
     level = np.cross(geometry.E3, right)
     c, s = np.cos(elevation), np.sin(elevation)
     return Camera(direction=c * level - s * geometry.E3, up=s * level + c * geometry.E3, distance=distance)
-
-
-def main_direction(run: Trajectory) -> Any:
-    """Horizontal unit vector (3,), e₃ up, along which the rod of `run` moves most; see `flypend.pages.sketch`."""
-    return sketch.main_direction(run.states.in_frame(run.e3))
 
 
 def states_at(run: Trajectory, times: Any) -> State:
@@ -98,8 +94,8 @@ def sketch_at(run: Trajectory, times: Any, states: State) -> Sketch:
     return sketch.sketch(centred, run.vehicle, sign * np.interp(times, run.t, run.thrust), forces)
 
 
-def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float, ghosts: int = 5) -> None:
-    """Draw `run` at time `t` around the point `middle` of `ax`, with the preceding path of the bob about the pivot.
+def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float) -> None:
+    """Draw `run` at time `t` around the point `middle` of `ax`, with the path of its bob and faint rods along it.
 
     Parameters
     ----------
@@ -113,8 +109,6 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
         Position of the pivot in `ax`.
     t, since : float
         Time of the drawing and start of the bob's path (of a whirling rod, at most the last turn); s.
-    ghosts : int
-        Number of faint rods along the path.
     """
 
     def screen(points: Any) -> Any:
@@ -122,7 +116,7 @@ def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, sin
 
     vehicle = run.vehicle
     rate = max(float(geometry.norm(states_at(run, t).y_dot)[0]), 1e-9)
-    states = states_at(run, np.linspace(max(since, t - 2 * np.pi / rate), t, 40 * ghosts + 1))
+    states = states_at(run, np.linspace(max(since, t - 2 * np.pi / rate), t, 40 * GHOSTS + 1))
     bobs = vehicle.rod_length * states.y
     shape = sketch_at(run, t, states[-1])
     behind = depth(camera, shape.bob) > 0
@@ -167,20 +161,9 @@ def outlines(segments: Any, vehicle: Vehicle, form: Form) -> Any:
 
 
 def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float) -> None:
-    """Draw the letter g with an arrow down the screen, or ⊗ (into the screen) if the view is along gravity.
+    """Draw the letter g, in `fontsize` pt, with an arrow down the screen, or ⊗ if the `view` is along gravity.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes
-        Axes with equal aspect ratio.
-    view : "side" or "axis"
-        As in `camera_for`.
-    at : (2,)
-        Centre of the symbol in units of `ax`.
-    size : float
-        Half the length of the arrow, in units of `ax`.
-    fontsize : float
-        Font size of the letter, pt.
+    In the units of `ax`, whose axes are equal, its centre is `at` (2,), and half of the arrow is `size` long.
     """
     x, y = at
     if view == "axis":
@@ -189,11 +172,6 @@ def gravity_symbol(ax: Any, view: str, at: Any, size: float, *, fontsize: float)
         for tilt in (-1, 1):
             ax.plot([x - d, x + d], [y - tilt * d, y + tilt * d], color=INK, linewidth=1.2)
     else:
-        _arrow(ax, (x, y + size), (x, y - size), color=INK, linewidth=1.2)
+        style = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", (x, y - size), (x, y + size), arrowprops={**style, "color": INK, "linewidth": 1.2}, zorder=2.0)
     ax.text(x + size, y, "g", fontsize=fontsize, va="center", style="italic")
-
-
-def _arrow(ax: Any, tail: Any, tip: Any, **style: Any) -> None:
-    """Draw an arrow from `tail` (2,) to `tip` (2,), in the axes' units."""
-    head = {"arrowstyle": "-|>,head_width=0.18,head_length=0.35", "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", tip, tail, arrowprops={**head, **style}, zorder=2.0)

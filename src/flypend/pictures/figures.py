@@ -14,7 +14,7 @@ from flypend.files.whole import save_figure
 from flypend.flight.trajectory import Trajectory
 from flypend.palette import BLUE, RED
 from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, rule, title
-from flypend.pictures.panels import between_poles, draw_panel, line_style, unit_vectors
+from flypend.pictures.panels import PANELS, between_poles, line_style, unit_vectors
 from flypend.pictures.stop_motion import snapshot_times, stop_motion
 from flypend.pictures.style import Style, letter, style_of
 
@@ -51,7 +51,7 @@ def full_figure(run: Trajectory, *, style: str | Style = "paper") -> Figure:
     figure = new_figure(*form.full, form.dpi)
     rows = figure.subplots(len(form.panels) // form.columns, form.columns, sharex=True)
     for ax, name in zip(rows.flat, form.panels, strict=True):
-        draw_panel(ax, run, name)
+        PANELS[name](ax, run)
         # Above the axes, clear of the curves.
         at = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1, "borderpad": 0.1}
         narrow = {"fontsize": SMALL, "ncols": 5, "frameon": False, "columnspacing": 0.8, "handlelength": 1.5}

@@ -19,11 +19,6 @@ FAR = 1.6  # limits of the rotors up to this many times the largest force are sh
 CUT, KEPT = 10, 4  # a peak of more than ten times the usual is cut off at four times that
 
 
-def draw_panel(ax: Any, run: Trajectory, name: str) -> None:
-    """Draw the panel `name`, one of PANELS, of `run` into `ax`."""
-    PANELS[name](ax, run)
-
-
 def unit_vectors(run: Trajectory) -> tuple[Any, dict[str, Any]]:
     """Times, and y and z at those times: the samples, or finer if rod or vehicle turn too fast for them."""
     rate = max(geometry.norm(run.y_dot).max(), geometry.norm(run.omega).max())

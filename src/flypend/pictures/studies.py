@@ -19,7 +19,7 @@ from flypend.studies.margins import LEAST_RATE, Margin
 if TYPE_CHECKING:
     from flypend.studies.check import Check
 
-MARKERS = "osD^vPX"
+MARKERS, DASHES = "osD^vPX", ("-", "--", "-.", ":")
 
 
 def comparison_figure(comparison: Comparison) -> Figure:
@@ -31,8 +31,8 @@ def comparison_figure(comparison: Comparison) -> Figure:
         for axis, field in zip(axes, ("settling", "excursion"), strict=True):
             values = np.sort(getattr(ensemble, field)[ensemble.success])
             share = 100 * np.arange(len(values) + 1) / len(ensemble)
-            steps = axis.step(np.append(0.0, values), share, where="post", color=SERIES[i % len(SERIES)], ls=_dash(i))
-            steps[0].set_label(label)
+            style = {"color": SERIES[i % len(SERIES)], "ls": DASHES[i % 4]}
+            axis.step(np.append(0.0, values), share, where="post", label=label, **style)
     axes[0].set(xlabel="time (s)", ylabel="runs settled by then (%)", ylim=(0, 102))
     axes[1].set(xlabel="largest distance from the reference (m)", ylabel="runs settled within (%)")
     figure.legend(
@@ -75,10 +75,6 @@ def ladder_figure(ladder: Ladder) -> Figure:
     axes[0].legend(fontsize=SMALL, frameon=False, ncols=len(laws), loc="lower left", bbox_to_anchor=(0, 1))
     rule(axes)
     return figure
-
-
-def _dash(i: int) -> str:
-    return ("-", "--", "-.", ":")[i % 4]
 
 
 def check_figure(checks: Mapping[str, Check]) -> Figure:

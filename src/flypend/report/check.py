@@ -7,14 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.box import SIMPLE
-from rich.markup import escape
 from rich.table import Table
 
 from flypend.files.staging import staging
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
-from flypend.report.text import markdown_table, number, write_report
+from flypend.report.text import markdown_table, number, terminal_table, write_report
 from flypend.studies.advice import Advice
 from flypend.studies.check import Check
 from flypend.studies.joint import Joint
@@ -61,13 +59,11 @@ def trial_cells(trials: Mapping[str, Trial]) -> Cells:
 
 def check_tables(checks: Mapping[str, Check], trials: Mapping[str, Trial]) -> list[Table]:
     """Return the tables for the terminal."""
-    cells = task_cells(checks)
     tables = []
-    if cells:
-        several = len(checks) > 1
-        tables.append(_table([list(COLUMNS[0 if several else 1 :]), *(row[0 if several else 1 :] for row in cells)]))
-        tables.append(_table(margin_cells(checks)))
-    return [*tables, *([_table(trial_cells(trials))] if trials else [])]
+    if cells := task_cells(checks):
+        first = 0 if len(checks) > 1 else 1
+        tables += [[row[first:] for row in ([*COLUMNS], *cells)], margin_cells(checks)]
+    return [terminal_table(table) for table in (*tables, *([trial_cells(trials)] if trials else []))]
 
 
 def verdicts(checks: Mapping[str, Check]) -> list[str]:
@@ -135,15 +131,6 @@ def _markdown(
     parts += ["\n".join(f"- {line.strip()}" for line in joint_lines(joints))] if joints else []
     parts += ["\n".join(f"- {line.strip()}" for line in advice.lines())] if advice else []
     return "\n\n".join(parts) + "\n"
-
-
-def _table(cells: Cells) -> Table:
-    table = Table(box=SIMPLE, padding=(0, 0, 0, 1))
-    for i, name in enumerate(cells[0]):
-        table.add_column(escape(name), justify="left" if i == 0 else "right", overflow="fold")
-    for row in cells[1:]:
-        table.add_row(*(escape(cell) for cell in row))
-    return table
 
 
 def _caught(check: Check) -> str:

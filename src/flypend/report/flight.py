@@ -75,34 +75,11 @@ def write_flight(
     style: str = "paper",
     progress: Callable[[Iterable[tuple[str, Task]]], Any] | None = None,
 ) -> list[Verdict]:
-    """Write run.nc, figures, movies, report.md and report.json of `run` into the folder `out`, atomically.
+    """Write run.nc, figures, movies, report.md and report.json of `run` into the folder `out`, all or nothing.
 
-    Parameters
-    ----------
-    run : Trajectory
-        The run.
-    settings : dict
-        The content of the run file, saved in report.json.
-    out : path
-        The folder; created if it does not exist.
-    settled : Trajectory, optional
-        The same flight over a longer duration, on which limits are measured; default `run`.
-    with_figures, with_movies : bool
-        Whether to draw figures and make movies.
-    style : "paper" or "slides"
-        Format of the figures.
-    progress : callable, optional
-        Runs an iterable of named tasks and shows progress; by default they run silently.
-
-    Returns
-    -------
-    list of Verdict
-        The claims of the law's theorem on this run; empty for a law without a Lyapunov function.
-
-    Raises
-    ------
-    InputError
-        If `out` is not writable.
+    `settings`, the content of the run file, is kept in report.json. Limits are measured on `settled`, the same flight
+    over a longer duration. `progress` runs an iterable of named tasks, by default in silence. Return the verdicts on
+    the claims of the law's theorem, none for a law without V. Raises InputError if `out` is not writable.
     """
     if with_movies:
         check_movies()
@@ -127,11 +104,6 @@ def write_flight(
                 "",
             ]
         lines += [f"Goal: {text.judgement(run)}.", ""]
-        content = {
-            "settings": settings,
-            "outcome": vars(run.outcome),
-            "claims": verdicts,
-            "inverted": vars(metrics(run)),
-        }
+        content = {"settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
         text.write_report(folder, "\n".join(lines), {**content, "inverted": vars(metrics(run))})
     return verdicts

@@ -55,23 +55,10 @@ class Reproduction:
 def reproduce(
     out: str | Path, *, quick: bool = False, style: str = "paper", progress: Progress = lambda *_: None
 ) -> Reproduction:
-    """Fly the paper's experiments and write figures, movies, runs, report.md and report.json into the folder `out`.
+    """Fly the paper's experiments; write figures, movies unless `quick`, runs, report.md and report.json into `out`.
 
-    Parameters
-    ----------
-    out : path
-        The folder; created if it does not exist. If anything fails, nothing is written to it.
-    quick : bool
-        Whether to skip the movies.
-    style : "paper" or "slides"
-        Format of the figures.
-    progress : callable
-        Called with `(task, done, total)` as the work proceeds.
-
-    Raises
-    ------
-    InputError
-        If `out` is not writable or the style is unknown.
+    If anything fails, nothing is written. `progress` is called with (task, done, total). Raises InputError if the
+    folder `out` is not writable or the `style` unknown.
     """
     style_named(style)
     if not quick:
@@ -91,7 +78,9 @@ def reproduce(
         with processes(os.cpu_count() or 1) as submit:
             pending = [(name, submit(task)) for name, task in tasks]
             result = _judge(runs, swing_up)
-            _save_runs(runs, folder / "runs")
+            for label, group in vars(runs).items():
+                for name, run in group.items():
+                    run.save(folder / "runs" / f"{label.replace('_', '-')}-{name}.nc")
             swing_up.save(folder / "runs" / "inverted-swing-up.nc")
             _write_reports(result, folder)
             for done, (name, future) in enumerate(pending):
@@ -133,12 +122,6 @@ def _judge(runs: Runs, swing_up: Trajectory) -> Reproduction:
     return Reproduction(verdicts, ends, findings(runs), swing_up, repaired)
 
 
-def _save_runs(runs: Runs, folder: Path) -> None:
-    for label, group in vars(runs).items():
-        for name, run in group.items():
-            run.save(folder / f"{label.replace('_', '-')}-{name}.nc")
-
-
 def _write_reports(result: Reproduction, folder: Path) -> None:
     parts = [
         "# Stabilizing a spherical pendulum on a quadrotor: which claims hold",
@@ -153,7 +136,7 @@ def _write_reports(result: Reproduction, folder: Path) -> None:
         "## Theorem 1 repaired",
         f"The same experiments under the repaired law (docs/laws/theorem.md, Theorem A), with the paper's gains, for "
         f"{SETTLED:g} s. Its V falls along every solution.",
-        text.verdicts_markdown(result.repaired, dict.fromkeys(result.repaired, "completed")),
+        text.verdicts_markdown(result.repaired),
         "## A swing-up by another law",
         f"One flight of the inverted law on {result.swing_up.vehicle.name}, from hanging at rest, with rotor limits "
         f"and lag: {text.judgement(result.swing_up)} (figures/swing-up-stop-motion.png). One flight from one start "

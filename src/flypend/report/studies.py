@@ -7,12 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from rich.box import SIMPLE
-from rich.markup import escape
 from rich.table import Table
 
 from flypend.files.staging import staging
-from flypend.report.text import markdown_table, write_report
+from flypend.report.text import markdown_table, terminal_table, write_report
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
@@ -35,21 +33,16 @@ def comparison_cells(row: dict[str, Any]) -> list[str]:
 
 def comparison_table(comparison: Comparison) -> Table:
     """Return the table for the terminal, one row per law."""
-    table = Table(title="Same starts, same plant", title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1))
-    table.add_column("law", overflow="fold")
-    for name in COLUMNS[:-1]:
-        table.add_column(name, justify="right", no_wrap=True)
-    failed = []
+    rows, failed = [["law", *COLUMNS[:-1]]], []
     for row in comparison.rows():
         *cells, causes = comparison_cells(row)
-        table.add_row(escape(row["law"]), *cells)
+        rows.append([row["law"], *cells])
         failed += [f"{row['law']}: {causes}"] if row["causes"] else []
-    table.caption = escape(
+    caption = (
         f"settle, exc. (excursion): median/95th percentile; effort: RMS rotor force over hover; peak: any one rotor\n"
         f"failed: {'; '.join(failed) or 'none'}"
     )
-    table.caption_justify = "left"
-    return table
+    return terminal_table(rows, "Same starts, same plant", caption, whole=True)
 
 
 def comparison_markdown(comparison: Comparison) -> str:
@@ -90,16 +83,9 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
 def ladder_table(ladder: Ladder) -> Table:
     """Return the ladder as a table for the terminal."""
     laws = list(next(iter(ladder.rungs.values())).ensembles)
-    title = "Success, and 95th percentile of the excursion"
-    table = Table(title=title, title_justify="left", box=SIMPLE, padding=(0, 0, 0, 1), min_width=len(title))
-    table.add_column("rung")
-    for law in laws:
-        table.add_column(escape(law), justify="right", overflow="fold")
-    for row in ladder_rows(ladder):
-        table.add_row(*row)
-    table.caption = escape("; ".join(f"{law} falls below 90 % on: {_broken(ladder, law)}" for law in laws))
-    table.caption_justify = "left"
-    return table
+    caption = "; ".join(f"{law} falls below 90 % on: {_broken(ladder, law)}" for law in laws)
+    rows = [["rung", *laws], *ladder_rows(ladder)]
+    return terminal_table(rows, "Success, and 95th percentile of the excursion", caption)
 
 
 def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> None:

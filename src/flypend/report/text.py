@@ -7,11 +7,14 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from rich.box import SIMPLE
+from rich.console import JustifyMethod
 from rich.markup import escape
 from rich.table import Table
+from rich.text import Text
 
 from flypend import __version__
 from flypend.flight.metrics import metrics
@@ -20,6 +23,7 @@ from flypend.flight.verdict import fall, goal
 from flypend.paper.claims import Finding, Verdict
 
 Column = tuple[str, str]
+Cell = str | Text
 # What each cause of failure means by the default criterion, for readers who meet it for the first time.
 _END = "within the last second"
 WHY = {
@@ -52,6 +56,24 @@ def judgement(run: Trajectory) -> str:
     return f"{pose} {reached}, {way}, largest rotor force {number(m.peak_force)} N{lowest}{least}"
 
 
+def terminal_table(
+    rows: Sequence[Sequence[Cell]], title: str | None = None, caption: str = "", *,
+    left: int = 1, whole: bool = False, space: int = 1,
+) -> Table:  # fmt: skip
+    """Return `rows`, the first of them the header, as a table for the terminal, with `space` left of each column.
+
+    The first columns, `left` of them, are names; others are numbers, which are not wrapped if they shall be `whole`.
+    """
+    table = Table(title=title, title_justify="left", box=SIMPLE, padding=(0, 0, 0, space), min_width=len(title or ""))
+    for i, name in enumerate(rows[0]):
+        side: JustifyMethod = "left" if i < left else "right"
+        table.add_column(escape(str(name)), justify=side, overflow="fold", no_wrap=whole and i >= left)
+    for row in rows[1:]:
+        table.add_row(*(escape(cell) if isinstance(cell, str) else cell for cell in row))
+    table.caption, table.caption_justify = escape(caption) or None, "left"
+    return table
+
+
 def mark(holds: bool) -> str:
     """Return the label of a verdict."""
     return "holds" if holds else "fails"
@@ -59,19 +81,14 @@ def mark(holds: bool) -> str:
 
 def summary_table(verdicts: Mapping[Column, Sequence[Verdict]], title: str = "Theorem 1: which claim holds") -> Table:
     """Return the verdicts as a table for the terminal: one row per (law, experiment), one column per claim."""
-    table = Table(title=title, title_justify="left", box=SIMPLE, padding=0)  # 80 columns
     first = next(iter(verdicts.values()))
-    table.add_column("law", overflow="fold")
-    table.add_column("start", overflow="fold")
-    for verdict in first:
-        table.add_column(verdict.claim, justify="right", no_wrap=True)
-    for (law, name), row in verdicts.items():
-        cells = [f"[{'green' if v.holds else 'red'}]{number(v.value)} {'✓' if v.holds else '✗'}" for v in row]
-        table.add_row(escape(law), escape(name), *cells)
+    rows: list[list[Cell]] = [["law", "start", *(verdict.claim for verdict in first)]]
+    for key, row in verdicts.items():
+        told = ((number(v.value), *(("✓", "green") if v.holds else ("✗", "red"))) for v in row)
+        rows.append([*key, *(Text(f"{value} {sign}", colour) for value, sign, colour in told)])
     meaning = "; ".join(f"{v.claim}: {_generic(v.measured)} {v.criterion}" for v in first)
-    table.caption = f"{meaning}. A claim fails as well on a run that does not reach its end."
-    table.caption_justify = "left"
-    return table
+    caption = f"{meaning}. A claim fails as well on a run that does not reach its end."
+    return terminal_table(rows, title, caption, left=2, whole=True, space=0)  # 80 columns
 
 
 def findings_table(findings: Iterable[Finding]) -> Table:
@@ -87,8 +104,10 @@ def findings_table(findings: Iterable[Finding]) -> Table:
     return table
 
 
-def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str]) -> str:
-    """Return the verdicts by (law, experiment) as a Markdown table; `ends` states how each run ended."""
+def verdicts_markdown(
+    verdicts: Mapping[Column, Sequence[Verdict]], ends: Mapping[Column, str] = MappingProxyType({})
+) -> str:
+    """Return the verdicts by (law, experiment) as a Markdown table; `ends` states how runs that broke off ended."""
     first = next(iter(verdicts.values()))
     rows = [
         ["law", "experiment", "run", *(v.claim for v in first)],
@@ -96,7 +115,7 @@ def verdicts_markdown(verdicts: Mapping[Column, Sequence[Verdict]], ends: Mappin
         ["*criterion*", "", "", *(v.criterion for v in first)],
     ]
     for key, row in verdicts.items():
-        rows.append([*key, ends[key], *(f"{number(v.value)} **{mark(v.holds)}**" for v in row)])
+        rows.append([*key, ends.get(key, "completed"), *(f"{number(v.value)} **{mark(v.holds)}**" for v in row)])
     return markdown_table(rows)
 
 

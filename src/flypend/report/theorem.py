@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
 
-from rich.box import SIMPLE
 from rich.table import Table
+from rich.text import Text
 
 from flypend import __version__
 from flypend.files import whole
@@ -29,6 +29,7 @@ from flypend.report.text import Column
 from flypend.studies.starts import check_starts
 
 POINTS = 61  # of the basin's grid, per axis
+RISE = "largest rise over V(0), median / worst"
 Progress = Callable[[str, int, int], None]
 
 
@@ -41,33 +42,13 @@ class Proof:
     descents: list[Descent]
 
 
-def judge(
-    runs: Mapping[str, Trajectory], theorem: str, claims: Callable[[Trajectory], list[Verdict]]
-) -> dict[Column, list[Verdict]]:
-    """Return the verdicts of `claims` on `runs` by (`theorem`, name of the start)."""
-    return {(theorem, name): claims(run) for name, run in runs.items()}
-
-
 def check_theorems(
     out: str | Path, *, runs: int, seed: int, style: str = "paper", progress: Progress = lambda *_: None
 ) -> Proof:
     """Fly the laws of Theorems A and B and negative controls; write figures, report.md and report.json into `out`.
 
-    Parameters
-    ----------
-    out : path
-        The folder; created if it does not exist. If anything fails, nothing is written to it.
-    runs, seed : int
-        Random flights of each law, and their seed.
-    style : "paper" or "slides"
-        Format of the figures.
-    progress : callable
-        Called with `(task, done, total)` as the work proceeds.
-
-    Raises
-    ------
-    InputError
-        If `out` is not writable or the style is unknown.
+    Each law flies `runs` random starts of `seed`. If anything fails, nothing is written. `progress` is called with
+    (task, done, total). Raises InputError if the folder `out` is not writable or the `style` unknown.
     """
     style_named(style)
     check_starts(runs, seed)
@@ -75,7 +56,9 @@ def check_theorems(
         progress("flying the experiments", 0, 1)
         hanging, inverted = fly_repaired(), fly_swing_ups()
         descents = [descend(name, runs, seed, progress=partial(progress, f"flying {name}")) for name in laws()]
-        result = Proof(judge(hanging, "A", theorem_a_claims), judge(inverted, "B", theorem_b_claims), descents)
+        theorem_a = {("A", name): theorem_a_claims(run) for name, run in hanging.items()}
+        theorem_b = {("B", name): theorem_b_claims(run) for name, run in inverted.items()}
+        result = Proof(theorem_a, theorem_b, descents)
         progress("drawing", 0, 1)
         _draw(hanging, inverted, folder, style)
         _write(result, folder, runs, seed)
@@ -103,32 +86,22 @@ def _draw(hanging: Mapping[str, Trajectory], inverted: Mapping[str, Trajectory],
 
 def descent_table(descents: list[Descent]) -> Table:
     """Return the rows of `descents` as a table for the terminal."""
-    table = Table(title="Does V fall? Wide random starts, ideal plant", title_justify="left", box=SIMPLE, padding=0)
-    for name, end in (("law", "left"), ("converge", "right"), ("end early", "right"), ("V rises", "right")):
-        table.add_column(name, justify=end)  # type: ignore[arg-type]
-    table.add_column("largest rise over V(0), median / worst", justify="right")
+    rows: list[list[text.Cell]] = [["law", "converge", "end early", "V rises", RISE]]
     for row in descents:
-        colour = "red" if row.rising else "green"
-        table.add_row(
-            row.law, f"{row.converged} of {row.runs}", str(row.ended), f"[{colour}]{row.rising} of {row.runs}",
-            f"{row.median_rise:.2g} / {row.worst_rise:.2g}",
-        )  # fmt: skip
-    return table
+        rising = Text(f"{row.rising} of {row.runs}", "red" if row.rising else "green")
+        rise = f"{row.median_rise:.2g} / {row.worst_rise:.2g}"
+        rows.append([row.law, f"{row.converged} of {row.runs}", str(row.ended), rising, rise])
+    return text.terminal_table(rows, "Does V fall? Wide random starts, ideal plant", space=0)
 
 
 def _markdown(descents: list[Descent]) -> str:
-    rows = [["law", "converge (95 %, Wilson)", "end early", "V rises", "largest rise over V(0), median / worst"]]
+    rows = [["law", "converge (95 %, Wilson)", "end early", "V rises", RISE]]
     for row in descents:
         low, high = wilson(row.converged, row.runs)
         share = f"{row.converged} of {row.runs} ({low:.2%} to {high:.2%})"
         rise = f"{row.median_rise:.2g} / {row.worst_rise:.2g}"
         rows.append([row.law, share, str(row.ended), str(row.rising), rise])
     return text.markdown_table(rows)
-
-
-def claims_markdown(verdicts: Mapping[Column, list[Verdict]]) -> str:
-    """Return the verdicts on a theorem as a Markdown table."""
-    return text.verdicts_markdown(verdicts, dict.fromkeys(verdicts, "completed"))
 
 
 def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
@@ -138,9 +111,9 @@ def _write(result: Proof, folder: Path, runs: int, seed: int) -> None:
         f"Flown by flypend {__version__} in the ideal plant: the wrench acts as commanded. "
         "docs/laws/theorem-proof.md has the statements and the proofs.",
         "## Theorem A: the paper's experiments under the repaired law, 30 s",
-        claims_markdown(result.repaired),
+        text.verdicts_markdown(result.repaired),
         "## Theorem B: hehn2011 under the almost global law, 30 s",
-        claims_markdown(result.almost_global),
+        text.verdicts_markdown(result.almost_global),
         "## Does V fall?",
         f"{runs} flights of each law, seed {seed}: |ω|, |ẏ| ≤ 12 rad/s, |ẋ| ≤ 5 m/s, and |x_i| ≤ 10 m where position "
         "is controlled. V rises if it exceeds an earlier value by more than 1e-6 V(0) at samples 0.05 s apart. Only "

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cbuild import run
 
 import flypend as fp
 from flypend.export import compiled
@@ -151,3 +152,13 @@ def test_a_memory_that_is_damaged_in_flight_begins_again_at_the_last_estimate(mo
 def test_arrays_that_c_would_read_past_are_refused(code, spoil):
     with pytest.raises(fp.InputError, match="numbers of shape"):
         spoil(begun(code))
+
+
+def test_cmake_builds_the_estimator_too_without_a_warning_of_clang(tmp_path):
+    """Of a law that reads no path, whose step has one pointer to check."""
+    fp.export_c(fp.laws.corrected(), VEHICLE, tmp_path, precision="float", sensors="mocap", check=False)
+    flags = ("-DCMAKE_C_COMPILER=clang", "-DCMAKE_C_FLAGS=-Werror")
+    run(["cmake", "-S", ".", "-B", "build", *flags], tmp_path)
+    run(["cmake", "--build", "build", "--target", "flypend_law"], tmp_path)
+    assert " T flypend_sensors_step" in run(["nm", "build/libflypend_law.a"], tmp_path)
+    assert "flypend_sensors.h" in (tmp_path / "README.md").read_text(encoding="utf-8")

@@ -103,6 +103,20 @@ def test_derivatives_of_readings_are_those_of_their_differences(case):
     assert begin == H.shape[1] == LOCAL + sizes(MOVING) + 4 + sizes(READING)
 
 
+def test_the_accelerometer_feels_what_the_centre_of_mass_does(case):
+    """By differences of its velocity over a step; at the pivot, 1 cm off, a tumble feels another force."""
+    s, gusts, forces, moving, reading = case
+    h, offset = 1e-5, moving[6:9]
+    after = moves(VEHICLE)(s, gusts, np.zeros(LOCAL), forces, 0 * forces, h, 1.0, moving)[0]
+    before, now = (fp.State.trusted(packed) for packed in (s, after))
+    velocity = [state.x_dot - state.R @ np.cross(state.omega, offset) for state in (before, now)]
+    felt = before.R.T @ ((velocity[1] - velocity[0]) / h + [0, 0, VEHICLE.gravity])
+    read = reads(VEHICLE, (0.0, 0.0, 0.0))(s, gusts, forces, 0.0, moving, reading)[0][15:18] - reading[4:7]
+    assert read == pytest.approx(felt, abs=0.02)  # the force changes by 1e3 m/s³ or so, over 10 µs
+    at_pivot = before.R.T @ ((now.x_dot - before.x_dot) / h + [0, 0, VEHICLE.gravity])
+    assert np.abs(read - at_pivot).max() > 0.2
+
+
 NUMBERS = {
     "lag": [0.03], "spin_up": [1.3], "sag": [0.06], "delay": [0.0113], "scale": [np.log(0.9)],
     "shares": [0.03, -0.02, 0.01], "curve": [0.0],

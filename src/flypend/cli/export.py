@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from flypend.cli.options import LAW_HELP, out_option, sensors_option, vehicle_option
+from flypend.cli.options import LAW_HELP, out_option, sensors_asked, sensors_option, vehicle_option
 from flypend.cli.terminal import bold, console, say
 from flypend.errors import InputError
 
@@ -45,7 +45,7 @@ def export_c(
     from flypend.files.staging import check_writable
     from flypend.laws import inverted
     from flypend.planning.planner import plan
-    from flypend.plants import SUITES
+    from flypend.plants.sensors import sensors_called
 
     check_writable(out)
     if light:
@@ -54,11 +54,11 @@ def export_c(
     kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
-        errors.one_of("--sensors", sensors, SUITES)
+        read = sensors_called(sensors_asked(sensors), "--sensors")
         machine = model.vehicle(vehicle)
         if law == "nmpc":
             export_nmpc(plan(machine, model.State(y=(0, 0, -1))), out, precision=kind)
-        write(chosen, machine, out, precision=kind, rate=rate, sensors=sensors, check=tested)
+        write(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     if law == "nmpc":
@@ -88,16 +88,16 @@ def export_app(
     planned: bool,
 ) -> None:
     """Write an app for the firmware of TARGET, crazyflie or px4, that flies VEHICLE; see docs/export."""
-    from flypend import errors, model
+    from flypend import model
     from flypend.export import export_app as write
     from flypend.files.staging import check_writable
-    from flypend.plants import SUITES
+    from flypend.plants.sensors import sensors_called
 
     check_writable(out)
-    errors.one_of("--sensors", sensors, SUITES)
+    read = sensors_called(sensors_asked(sensors), "--sensors")
     machine, chosen = model.vehicle(vehicle), _symbolic(law)
     flown = write(
-        target, chosen, machine, out, airframe=airframe, rate=rate, height=height, sensors=sensors, planned=planned
+        target, chosen, machine, out, airframe=airframe, rate=rate, height=height, sensors=read, planned=planned
     )
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits

@@ -76,22 +76,32 @@ def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
     return dict(worlds_within(machine, as_sampled(plant_of(plant)), seed))
 
 
-def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:
-    """Return the plant of --plant, --sensors and --floor, as a run file has it: a name, or a table.
+def sensors_asked(sensors: str) -> Any:
+    """Return the sensors of --sensors, as a run file has them: the name of a suite, or the table in a TOML file.
 
-    Sensors are the name of a suite, or a TOML file with a table of them. Raises InputError.
+    Raises InputError.
     """
     from flypend import errors
     from flypend.files.toml import read_toml
-    from flypend.plants import PRESETS, SUITES
+    from flypend.plants import SUITES
     from flypend.plants.sensors import sensors_called
 
+    if Path(sensors).suffix != ".toml":
+        return errors.one_of("--sensors", sensors, SUITES)
+    table = read_toml(sensors)
+    return "perfect" if sensors_called(table, "--sensors") is None else table
+
+
+def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:
+    """Return the plant of --plant, --sensors and --floor, as a run file has it: a name, or a table.
+
+    Raises InputError.
+    """
+    from flypend import errors
+    from flypend.plants import PRESETS
+
     errors.one_of("--plant", plant, PRESETS)
-    if Path(sensors).suffix == ".toml":
-        table = read_toml(sensors)
-        measured: Any = "perfect" if sensors_called(table, "--sensors") is None else table
-    else:
-        measured = errors.one_of("--sensors", sensors, SUITES)
+    measured = sensors_asked(sensors)
     perfect = measured == "perfect"
     if plant == "ideal" and not perfect:
         raise errors.InputError("--sensors", "perfect, in the ideal plant", repr(sensors))

@@ -48,7 +48,7 @@ def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> di
         "call_sound": call(sensing.sound, ("r",), ["defect"], "rest"),
         "call_board": f"fly({', '.join(fly)});",
         "locals": locals_,
-        "null": " || (reference == NULL)" if made.follows else "",
+        "null": " || reference == NULL" if made.follows else "",
         "fill": fill,
         "command_delay": f"{sensing.sensors.command_delay or 0.0:.3g}",
         "sensor_table": "\n".join(f" *   {line}" for line in describe(sensing.sensors)),

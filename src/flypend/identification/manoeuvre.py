@@ -14,6 +14,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.files.whole import whole_file
 from flypend.geometry import E3, Numbers, quat_xyzw_from_rotation, rotation_from_vector, unit, vee
 from flypend.identification.log import FORCE, GYRO, POSE, ROD, SHORTEST
+from flypend.identification.model import specific_force
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import make_engine
@@ -130,10 +131,10 @@ def write_log(path: str | Path, columns: dict[str, Any]) -> None:
 
 
 def _specific_force(true: Vehicle) -> Callable[..., Any]:
-    """Return (state (24,), rotor forces (n,), gusts (6,)) → specific force (3,) of the pivot, body frame, m/s²."""
+    """Return (state (24,), rotor forces (n,), gusts (6,)) → specific force (3,) at the centre of mass, body, m/s²."""
     packed, rotors, gusts = ca.SX.sym("s", SIZE), ca.SX.sym("f", len(true.rotor_spins)), ca.SX.sym("g", 6)
     rates = State.symbolic(rates_under(packed, rotors, true.mixing() @ rotors, gusts, true, Plant()))
-    felt = State.symbolic(packed).R.T @ (rates.x_dot + true.gravity * E3)
+    felt = specific_force(State.symbolic(packed), rates, true)
     return as_numpy(ca.Function("felt", [packed, rotors, gusts], [ca.densify(felt)]))
 
 

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.numeric import as_numpy
-from flypend.geometry import E3, Numbers, Vector, hat, tangent_part, unit, vee
+from flypend.geometry import E3, Numbers, Vector, hat, is_symbolic, tangent_part, unit, vee
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
@@ -112,7 +112,7 @@ def reads(vehicle: Vehicle, marker: Vector) -> Callable[..., Any]:
     R = s.R @ rotation_by(-since * s.omega)
     position = s.x - since * s.x_dot + since**2 / 2 * rates.x_dot + R @ ca.DM(marker)
     seen = R @ rotation_by(told["misalignment"])
-    felt = s.R.T @ (rates.x_dot + vehicle.gravity * E3) + told["force_bias"]
+    felt = specific_force(s, rates, made) + told["force_bias"]
     rod = s.y - since * s.y_dot + since**2 / 2 * rates.y_dot
     gyro = s.omega + told["gyro_bias"]
     at = ca.SX.sym("at", 3, 3)
@@ -122,6 +122,16 @@ def reads(vehicle: Vehicle, marker: Vector) -> Callable[..., Any]:
     columns = ca.vec(ca.densify(ca.substitute(ca.substitute(by, error, ZERO), ca.vec(at), ca.vec(now[1]))))
     inputs = [packed, gusts, forces, age, moving, reading]
     return as_numpy(ca.Function("reads", inputs, ca.cse(list(map(ca.densify, (now[0], columns))))))
+
+
+def specific_force(state: State, rates: State, vehicle: Any) -> Any:
+    """Return what an accelerometer at the centre of mass feels (3,), body frame, m/s², in CasADi; e₃ up.
+
+    The centre of mass is at x − R o, with o the `pivot_offset`: Rᵀ (ẍ + g e₃) − ω̇ × o − ω × (ω × o).
+    """
+    o = vehicle.pivot_offset if is_symbolic(vehicle.pivot_offset) else ca.DM(vehicle.pivot_offset)
+    turning = ca.cross(rates.omega, o) + ca.cross(state.omega, ca.cross(state.omega, o))
+    return ca.mtimes(state.R.T, rates.x_dot + vehicle.g * E3) - turning
 
 
 def correct(packed: Numbers, error: Numbers) -> Numbers:

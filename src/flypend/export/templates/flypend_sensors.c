@@ -161,7 +161,7 @@ $locals    if (rotors == NULL) {
     if (usable != FLYPEND_OK) {
         return usable;
     }
-    if ((computer == NULL)$null) {
+    if (computer == NULL$null) {
         return FLYPEND_NULL;
     }
     if (!has_begun(computer)) {

@@ -39,7 +39,7 @@ def _one_thread_in_an_empty_folder(tmp_path, monkeypatch):
 
 CELLS = re.findall(r"^# %% sb3\.\w+[^\n]*\n(.*?)(?=^# %%|\Z)", EXAMPLES, flags=re.M | re.S)
 LEARNERS = re.compile(r"^```python learners\n(.*?)^```$", flags=re.M | re.S)
-TRAINED, ONE, FLOWN = LEARNERS.findall(PAGE)  # the last flies what the first has trained
+TRAINED, ONE, FLOWN = LEARNERS.findall(PAGE)
 TUTORIAL = LEARNERS.findall((ROOT / "docs" / "tutorials" / "learn-by-gradient.md").read_text(encoding="utf-8"))
 
 
@@ -55,7 +55,7 @@ def test_what_the_page_says_runs(code):
 def test_the_first_policy_balances_as_a_law():
     """From a lean a little beyond those of training it is never lost, and up at the end as scores mean it."""
     names = {"__name__": "__main__"}
-    exec(compile(TRAINED + FLOWN, "environments.md", "exec"), names)
+    exec(compile(TRAINED + ONE + FLOWN, "environments.md", "exec"), names)
     assert names["run"].y[:, 2].min() > 0.5
     assert names["run"].y[-1, 2] > scores.UP
 

@@ -647,6 +647,14 @@ def test_a_server_that_comes_back_is_found_again(chromium):
     assert again.stop() == (0, "")
 
 
+def test_a_page_that_has_flown_nothing_yet_says_so(chromium, server):
+    page = chromium.new_context(viewport=WIDE).new_page()
+    page.add_init_script("window.WebSocket = class { addEventListener() {} }")  # which never opens
+    page.goto(server.url)
+    expect(page.locator(".busy")).to_have_text("starting…")
+    page.context.close()
+
+
 def test_on_a_telephone_all_is_there_and_nothing_is_too_wide(visit):
     page = visit(viewport=NARROW, has_touch=True, color_scheme="dark")
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"

@@ -37,6 +37,7 @@ templates_path = ["site/templates"]
 html_static_path = ["site/static"]
 html_css_files = ["flypend.css"]
 html_js_files = [("pages.js", {"defer": "defer"})]
+html_favicon = "site/static/icon.svg"  # else browsers ask for one that is not there
 html_theme = "furo"
 html_title = "flypend"
 html_show_sphinx = False

@@ -623,15 +623,23 @@ def test_a_server_that_comes_back_is_found_again(chromium):
     page = chromium.new_context(viewport=WIDE).new_page()
     page.goto(first.url)
     shown(page)
+    page.evaluate(AT_REST)  # now: once the rod stands, the flight goes on, and a slider asks the server for nothing
     assert first.stop() == (0, "")
     until(page, "document.querySelector('.busy').textContent.includes('no connection')")
     again = Lab("--port", first.host.split(":")[1])
-    page.evaluate(AT_REST)
     slider(page, "law.gains.throw_speed").fill("220")
     shown(page)
     expect_flight(page)
     page.context.close()
     assert again.stop() == (0, "")
+
+
+def test_a_page_that_has_flown_nothing_yet_says_so(chromium, server):
+    page = chromium.new_context(viewport=WIDE).new_page()
+    page.add_init_script("window.WebSocket = class { addEventListener() {} }")  # which never opens
+    page.goto(server.url)
+    expect(page.locator(".busy")).to_have_text("starting…")
+    page.context.close()
 
 
 def test_on_a_telephone_all_is_there_and_nothing_is_too_wide(visit):
@@ -647,6 +655,55 @@ def test_on_a_telephone_all_is_there_and_nothing_is_too_wide(visit):
     page.evaluate("flypend.tab('map')")
     until(page, "flypend.map().done > 0")
     assert page.evaluate("document.documentElement.scrollWidth") == 390
+
+
+def test_a_telephone_on_its_side_has_room_for_the_picture(visit):
+    page = visit(viewport={"width": 844, "height": 390}, has_touch=True)
+    for opened in (True, False):
+        assert page.locator(".panel").is_visible() == opened
+        boxes = [page.locator(f"main > {part}").bounding_box() for part in (".scene", ".plots", "footer")]
+        scene, plots, footer = boxes
+        assert scene["height"] >= 250
+        assert plots["height"] == pytest.approx(scene["height"], abs=1)
+        assert footer["y"] >= scene["y"] + scene["height"]
+        assert page.evaluate("document.documentElement.scrollWidth") == 844
+        page.get_by_role("button", name="Tune").click()
+    page.evaluate("scrollTo(0, 9999)")
+    footer = page.locator("footer").bounding_box()
+    assert footer["y"] + footer["height"] <= 390
+
+
+def test_on_a_narrow_telephone_all_chapters_fit_and_tune_is_scrolled_to(visit):
+    page = visit(viewport={"width": 360, "height": 740}, has_touch=True, reduced_motion="reduce")
+    last = page.locator(".story .chips button").last.bounding_box()
+    assert last["x"] + last["width"] <= 360
+    assert last["height"] >= 44
+    assert page.evaluate("scrollY") > 0
+    scene, panel = page.locator(".scene").bounding_box(), page.locator(".panel").bounding_box()
+    assert panel["y"] == pytest.approx(scene["y"] + scene["height"], abs=2)  # under the picture, which stays
+
+
+@pytest.mark.parametrize("viewport", [WIDE, NARROW], ids=["wide", "narrow"])
+def test_help_names_each_control_once(visit, viewport):
+    page = visit(viewport=viewport)
+    page.get_by_role("button", name="?", exact=True).click()
+    names = page.locator(".sheet dt").all_inner_texts()
+    assert {"Chapter 4", "Experiment 4", "Gains: reset", "Fly live"} < set(names)
+    assert len(set(names)) == len(names)
+    name, words = (page.locator(f".sheet {part}").first.bounding_box() for part in ("dt", "dd"))
+    assert (words["y"] >= name["y"] + name["height"]) == (viewport is NARROW)  # beside it is no room
+
+
+def test_what_is_said_of_the_server_is_not_under_the_words_of_the_flight(visit):
+    page = visit(viewport={"width": 1280, "height": 800})
+    assert page.locator(".panel").is_visible()
+    page.evaluate("document.querySelector('.busy').hidden = false")
+    page.evaluate("document.querySelector('.busy').textContent = 'no connection to the server'")
+    page.evaluate("flypend.seek(2)")
+    page.evaluate("flypend.screen(0)")
+    said, busy = page.locator(".said").bounding_box(), page.locator(".busy").bounding_box()
+    assert busy["x"] < said["x"] + said["width"]
+    assert busy["y"] >= said["y"] + said["height"]
 
 
 def test_a_mount_is_chosen_and_kept(visit):

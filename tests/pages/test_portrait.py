@@ -201,6 +201,16 @@ def test_it_is_seen_where_there_is_room_and_put_away_by_key_and_button(visit, up
     assert globe.is_visible() != open_
 
 
+def test_it_is_put_away_where_the_room_is_lost(visit, up):
+    page = visit(up, setting={"viewport": WIDE})
+    globe = page.locator(".globe")
+    assert globe.is_visible()
+    page.set_viewport_size(NARROW)
+    globe.wait_for(state="hidden")
+    page.keyboard.press("s")
+    assert globe.is_visible()  # who asks for it has it
+
+
 def test_the_path_of_a_flight_that_goes_on_follows_the_rod(visit, up):
     page = visit(up, live=True, setting={"device_scale_factor": SHARPNESS})
     pixels, _ = seen(page, TIMES)

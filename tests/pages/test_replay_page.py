@@ -381,6 +381,20 @@ def test_times_that_are_none_change_nothing(visit, up):
     assert page.evaluate("[flypend.camera('none'), flypend.layout('beside'), flypend.theme('red')]") == [False] * 3
 
 
+def test_space_presses_a_button_that_tab_has_reached_and_plays_after_a_click(visit, up):
+    page = visit(up)
+    side = page.get_by_role("button", name="Side", exact=True)
+    page.get_by_role("button", name="Overview").focus()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Space")
+    assert (side.get_attribute("aria-pressed"), page.evaluate("flypend.playing()")) == ("true", False)
+    assert side.evaluate("button => button === document.activeElement")
+    page.get_by_role("button", name="Follow").click()
+    page.keyboard.press("Space")
+    assert page.evaluate("flypend.playing()")
+    assert page.get_by_role("button", name="Follow").get_attribute("aria-pressed") == "true"
+
+
 def test_keys(visit, up):
     page = visit(up)
     steps = [

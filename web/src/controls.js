@@ -83,6 +83,11 @@ export class Choice {
   }
 }
 
+let tabbed = false; // whether the focus was moved by key, not by pointer
+
+document.addEventListener("keydown", ({ key }) => (tabbed ||= key === "Tab"), true);
+document.addEventListener("pointerdown", () => (tabbed = false), true);
+
 /** Keys: `actions` maps the name of a key, as in KeyboardEvent.key, to what it does; Shift is told as `true`. */
 export function keys(actions) {
   document.addEventListener("keydown", (event) => {
@@ -90,7 +95,10 @@ export function keys(actions) {
     if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target.closest("select, textarea")) return;
     if (event.target.closest("[data-keys]") && event.key.length > 1) return; // a control with arrow keys of its own
-    if (event.key === " " && event.target.closest("button")) event.target.blur();
+    if (event.key === " " && event.target.closest("button")) {
+      if (tabbed) return; // it presses what is in focus
+      event.target.blur();
+    }
     event.preventDefault();
     action(event.shiftKey);
   });

@@ -24,7 +24,7 @@ import { LAYOUTS, Stage } from "./scene/stage.js";
 import { Theme } from "./theme.js";
 
 const STEP = 1 / 30; // s, of the arrow keys
-const LOW = 380, NARROW = 480; // CSS pixels, height and width of a picture below which the phase portrait is put away at first
+const LOW = 380, NARROW = 480; // CSS pixels, height and width of a picture below which the phase portrait is put away until it is asked for
 const WORDS = 80; // ms between two changes of the numbers while time runs: faster, nobody reads them
 
 export class Viewer {
@@ -139,8 +139,6 @@ export class Viewer {
     this.cameras.show(this.stage?.rig.preset);
     this.stage?.colour(this.theme.colours);
     this.#size();
-    const { clientWidth, clientHeight } = this.parts.scene;
-    if (clientHeight < LOW || clientWidth < NARROW) this.portrait.fold(true);
   }
 
   #choices() {
@@ -263,6 +261,9 @@ export class Viewer {
     if (!stage || !clientWidth || !clientHeight) return false;
     if (stage.width === clientWidth && stage.height === clientHeight && stage.ratio === ratio) return false;
     stage.resize(clientWidth, clientHeight, ratio);
+    const small = clientHeight < LOW || clientWidth < NARROW;
+    if (small && !this.small) this.portrait.fold(true); // it would lie on the words
+    this.small = small;
     return true;
   }
 

@@ -88,7 +88,7 @@ export class Laboratory {
     Object.assign(this.words, { className: "verdict", ariaLive: "polite" });
     header.append(this.words);
     this.busy = document.createElement("p");
-    Object.assign(this.busy, { className: "busy", role: "status" });
+    Object.assign(this.busy, { className: "busy", role: "status", textContent: "starting…" }); // until the engine says more
     this.viewer.parts.scene.append(this.busy);
     this.note = document.createElement("p");
     Object.assign(this.note, { className: "notice", hidden: true });

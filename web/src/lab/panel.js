@@ -1,6 +1,9 @@
 // The controls beside the picture: what flies, the start, gains, plant, pokes, export.
 
+import { calm } from "../motion.js";
 import { Group, Slider } from "./slider.js";
+
+const IN_SIGHT = 200; // CSS pixels of the panel
 
 const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
 const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
@@ -23,17 +26,17 @@ const html = (chosen, served) => `
     <label class="row">Sensors <select data-path="plant.sensors"></select></label>` : ""}
     <div class="flight"></div></section>
   <section><h2>Start</h2>
-    ${chosen ? `<div class="chips papers"><span>paper</span></div>` : ""}
+    ${chosen ? `<div class="chips papers" data-whose="Experiment"><span>paper</span></div>` : ""}
     <div class="rod"></div><p class="hint">Drag the rod to set the start; when live, drag the bob.</p></section>
   <section class="poke"><h2>Poke <small></small></h2>
     <div class="row two"><button type="button" data-on="bob">Poke bob</button><button type="button" data-on="vehicle">Poke vehicle</button></div>
     <label class="row">Direction <select class="way" aria-label="Direction"></select></label>
     <div class="strength"></div>
     <button type="button" class="unpoke" hidden>Remove pokes</button></section>
-  <section class="has-place"><h2>Place to hold <button type="button" class="small reset" title="The reference as it is by itself">reset</button></h2><div class="place"></div></section>
-  <section class="has-gains"><h2>Gains <button type="button" class="small reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
-  <section class="has-plant"><h2>Plant <button type="button" class="small reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
-  <section class="has-defects"><h2>Sensor defects <button type="button" class="small reset" title="The sensors as they are by themselves">reset</button></h2>
+  <section class="has-place"><h2 data-whose="Place to hold:">Place to hold <button type="button" class="small reset" title="The reference as it is by itself">reset</button></h2><div class="place"></div></section>
+  <section class="has-gains"><h2 data-whose="Gains:">Gains <button type="button" class="small reset" title="The gains that the law proposes">reset</button></h2><div class="gains"></div></section>
+  <section class="has-plant"><h2 data-whose="Plant:">Plant <button type="button" class="small reset" title="The plant as it is by itself">reset</button></h2><div class="plant"></div></section>
+  <section class="has-defects"><h2 data-whose="Sensor defects:">Sensor defects <button type="button" class="small reset" title="The sensors as they are by themselves">reset</button></h2>
     <p class="hint fell" role="status"></p><div class="defects"></div></section>
   ${served ? `<section><h2>Export</h2>
     <div class="row two"><button type="button" data-export="toml">TOML</button><button type="button" data-export="python">Python</button></div>
@@ -143,6 +146,13 @@ export class Panel {
     this.root.hidden = !open;
     this.lab.main.classList.toggle("tuned", open);
     this.open.setAttribute("aria-expanded", String(open));
+    if (open) this.#reveal();
+  }
+
+  /** Scroll to what has been opened, where it lies below what is in sight: under the picture, which stays. */
+  #reveal() {
+    const top = this.root.getBoundingClientRect().top, { height } = this.lab.viewer.parts.scene.getBoundingClientRect();
+    if (top > innerHeight - IN_SIGHT) scrollBy({ top: top - height, behavior: calm() ? "auto" : "smooth" });
   }
 
   /** Show whether the flight goes on. */

@@ -11,7 +11,7 @@ export class Story {
     Object.assign(this, { steps, lab, now: null });
     this.root = document.createElement("section");
     this.root.className = "story";
-    this.root.innerHTML = `<h2>How it works <small>chapter</small></h2><div class="chips"></div>
+    this.root.innerHTML = `<h2>How it works <small>chapter</small></h2><div class="chips" data-whose="Chapter"></div>
       <div class="step" hidden aria-live="polite"><h3></h3><p></p><div class="drag"></div><button type="button" class="next"></button></div>`;
     parent.append(this.root);
     const find = (selector) => this.root.querySelector(selector);

@@ -18,12 +18,13 @@ import pytest
 from rich.console import Console
 
 import flypend as fp
-from flypend.cli import terminal
+from flypend.cli import listing, terminal
 from flypend.cli.app import app
 from flypend.cli.bars import run_bar, task_bar
 from flypend.files import whole as files
 from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
+from flypend.model.table import vehicle_names
 from flypend.paper import experiment
 from flypend.paper.claims import SETTLED, theorem_claims
 from flypend.pictures import animate, figures
@@ -574,6 +575,20 @@ def test_laws_and_vehicles_are_listed_with_gains_units_and_defaults(call):
     machine = fp.vehicle("hehn2011")
     assert f"{4 * machine.rotor_limits[1] / machine.weight:.3g}" in told
     assert call("laws", "lqqr")[0] == 2
+
+
+@pytest.mark.parametrize("columns", ["80", "40"])
+def test_names_in_lists_are_whole_in_a_narrow_terminal(monkeypatch, capsys, columns):
+    """What one types elsewhere is not cut short with …; in a table of gains, it goes on in the next line."""
+    monkeypatch.setattr(listing, "console", Console(width=int(columns)))
+    listing.vehicles.callback(None, None)
+    told = capsys.readouterr().out
+    assert set(vehicle_names()) <= set(told.split())
+    listing.laws.callback("lqr", "hehn2011")
+    told = capsys.readouterr().out
+    assert "…" not in told
+    if columns == "80":
+        assert set(fp.laws.lqr().table) <= set(told.split())
 
 
 def test_a_vehicle_is_told_as_its_file_and_drawn(call, tmp_path):

@@ -422,7 +422,19 @@ def test_a_wrong_command_is_one_line_and_code_2(call, tmp_path, arguments, words
 
 def test_a_wrong_command_in_a_process_of_its_own(tmp_path):
     done = flypend(tmp_path, "fly")
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "flypend: No such command 'fly'.\n")
+    assert (done.returncode, done.stdout, done.stderr) == (
+        2,
+        "",
+        "flypend: No such command 'fly'. See flypend --help.\n",
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "command"),
+    [(("run",), "run"), (("check", "--runs", "0"), "check"), (("vehicle", "new"), "vehicle new")],
+)
+def test_a_wrong_command_says_where_its_arguments_are_explained(call, arguments, command):
+    assert call(*arguments)[2].endswith(f" See flypend {command} --help.\n")
 
 
 # What fails on the way ----------------------------------------------------------------------------------------------

@@ -430,6 +430,8 @@ def _call() -> int:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, click.ClickException) else str(error)
+        if isinstance(error, click.UsageError) and error.ctx is not None:
+            message += f" See {error.ctx.command_path} --help."
         say(" ".join(f"flypend: {message}".split()))
         return 2
     except (KeyboardInterrupt, click.Abort):

@@ -28,11 +28,13 @@ from flypend.model.table import vehicle_names
 from flypend.paper import experiment
 from flypend.paper.claims import SETTLED, theorem_claims
 from flypend.pictures import animate, figures
+from flypend.plants import PRESETS
 from flypend.report import paper
 from flypend.settings import runfile
 from flypend.studies.basin import measure_basin
 from tests.few import slow
 
+STEPPED = fp.Controller(name="stepped", function=lambda t, state: fp.Wrench(5.4, (0.0, 0.0, 0.0)))
 ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
 
 
@@ -716,6 +718,22 @@ def test_help_says_whether_a_command_writes_a_folder_or_a_file():
     assert {name for name, kind in kinds.items() if kind == "FILE"} == files
     assert {name for name, kind in kinds.items() if kind == "STORE"} == {"sweep"}
     assert {"run", "check", "compare", "figures", "tune"} <= {name for name, kind in kinds.items() if kind == "DIR"}
+
+
+@pytest.mark.parametrize("name", ["compare", "check", "map"])
+def test_help_names_every_plant_that_a_command_takes(call, name):
+    (option,) = (each for each in app.commands[name].params if each.name == "plant")
+    known = [one for one in PRESETS if (name, one) != ("check", "ideal")]
+    assert re.findall("|".join(PRESETS), option.help) == known
+    assert all(one in call("run", "--help")[1] for one in PRESETS)
+
+
+def test_compiled_c_is_not_called_python(call, tmp_path, monkeypatch):
+    text = 'vehicle = "hehn2011"\nduration = 0.1\nlaw.name = "lqr"\nstart = { y = [0.0, 0.0, 1.0] }\n'
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    monkeypatch.setattr(runfile, "_controller", lambda law, *_: dataclasses.replace(STEPPED, name=f"{law.name}-c"))
+    assert "step by step in Python" in call("run", "own.toml", "--no-figures")[2]
+    assert call("run", "own.toml", "--no-figures", "--controller", "c")[2] == ""
 
 
 def test_the_gains_of_all_laws_fit_100_columns_in_a_pipe(tmp_path):

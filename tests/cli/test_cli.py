@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import runpy
 import signal
 import subprocess
 import sys
@@ -566,6 +567,18 @@ def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
     assert "flypend sweep study.toml -o 'my runs.zarr'\n" in told
     assert "Traceback" not in told
     assert "--force" not in told
+
+
+def test_an_interrupted_self_test_is_one_line(monkeypatch, capsys):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("flypend.compile.llvm.target.native", interrupted)
+    monkeypatch.delitem(sys.modules, "flypend.selftest", raising=False)
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("flypend.selftest", run_name="__main__")
+    assert ended.value.code == 128 + signal.SIGINT
+    assert capsys.readouterr().err == "flypend: interrupted\n"
 
 
 # Words ----------------------------------------------------------------------------------------------------------------

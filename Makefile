@@ -132,6 +132,7 @@ $(LEARNERS)/.ready: requirements-learners.lock
 # Sets the version, builds wheel and sdist, tries both in empty environments, commits and tags: make release VERSION=0.3.0
 release: setup
 	$(BIN)/python .ci/release.py $(VERSION)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 
 # What README and the first pages tell one to type, on installations without extras: tests/first_contact.py.
 first-contact: setup

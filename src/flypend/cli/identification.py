@@ -129,7 +129,7 @@ def identify(
         partial.write_text(toml_text(found.vehicle.to_dict()), encoding="utf-8")
     console.print(found.report(), markup=False, highlight=False, soft_wrap=True)
     if rehearsal.asked:
-        console.print(f"The guess was {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")
+        console.print(f"The search began from {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")
     console.print(f"The machine is in {bold(out)}.")
 
 

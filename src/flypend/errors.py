@@ -114,13 +114,18 @@ def named_arguments(target: F) -> F:
     it fails. A record's public methods are checked only if they fail: equations pass vehicles of symbols to them.
     """
     if not isinstance(target, type):
-        return cast("F", _check_calls(target, target.__name__, target))
+        return cast("F", _check_calls(target, target.__name__, target, bound=_bound(target)))
     for name, member in list(vars(target).items()):
         if name == "__init__":
             setattr(target, name, _check_calls(member, target.__name__, target, bound=1))
         elif inspect.isfunction(member) and not name.startswith("_"):
             setattr(target, name, _check_calls(member, name, member, bound=1, before=False))
     return target
+
+
+def _bound(function: Any) -> int:
+    """Return how many of the first arguments of `function` are not the caller's: that of a class method."""
+    return int(function.__code__.co_varnames[:1] == ("cls",))
 
 
 def _check_calls(function: Any, name: str, documented: Any, bound: int = 0, before: bool = True) -> Any:
@@ -172,14 +177,15 @@ def _check_call(
             parameter.VAR_POSITIONAL,
             parameter.VAR_KEYWORD,
         ):
-            raise InputError(f"{name}.{parameter.name}", documentation_of(documented, parameter.name), "nothing")
+            expected = documentation_of(documented, parameter.name, _names_of(parameter.annotation))
+            raise InputError(f"{name}.{parameter.name}", expected, "nothing")
 
 
-def documentation_of(target: Any, name: str) -> str:
+def documentation_of(target: Any, name: str, otherwise: str = "a value") -> str:
     """Return what the docstring of `target` says of its argument `name`: kind, meaning and unit, up to a full stop."""
     found = re.search(rf"^( +)(?:\w+, )*{name}(?:, \w+)* : (.*)\n((?:\1 +.*\n)+)", f"{target.__doc__}\n", re.MULTILINE)
     if found is None:
-        return "a value"
+        return otherwise
     said = " ".join(found[3].split()).split(". ")[0].rstrip(".")
     kind = {"float": "a number", "int": "an integer", "str": "a word"}.get(found[2], found[2])
     return f"{kind}: {said[:1].lower()}{said[1:]}"
@@ -228,11 +234,18 @@ def _is_record(kind: Any) -> bool:
 
 def check_kind(field: str, value: Any, kind: Any) -> None:
     """Raise InputError unless `value` is of a `kind`: an annotation, or the name of a record."""
+    if not any(_fits(value, one) for one in _members(kind)):
+        raise InputError(field, _names_of(kind), repr(value)[:80])
+
+
+def _names_of(kind: Any) -> str:
+    """Return what values of a `kind` are called in a message, and how one gets a record."""
+    if kind in (Any, inspect.Parameter.empty):
+        return "a value"
     members = _members(kind)
-    if not any(_fits(value, one) for one in members):
-        names = [_name_of(one) for one in members if one is not str or Path not in members]
-        form = next((f", such as {RECORDS[one]}" for one in (_bare(each) for each in members) if one in RECORDS), "")
-        raise InputError(field, " or ".join(dict.fromkeys(names)) + form, repr(value)[:80])
+    names = [_name_of(one) for one in members if one is not str or Path not in members]
+    form = next((f", such as {RECORDS[one]}" for one in (_bare(each) for each in members) if one in RECORDS), "")
+    return " or ".join(dict.fromkeys(names)) + form
 
 
 def _bare(kind: Any) -> str:

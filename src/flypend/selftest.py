@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import signal
 import subprocess
 import sys
 import tempfile
@@ -184,4 +185,8 @@ def attempt(step: Callable[[], None], module: str) -> bool:
 
 
 if __name__ == "__main__":
-    sys.exit(min(main(), 1))
+    try:
+        sys.exit(min(main(), 1))
+    except KeyboardInterrupt:
+        print("flypend: interrupted", file=sys.stderr)
+        sys.exit(128 + signal.SIGINT)

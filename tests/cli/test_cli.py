@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import runpy
 import signal
 import subprocess
 import sys
@@ -18,21 +19,24 @@ import pytest
 from rich.console import Console
 
 import flypend as fp
-from flypend.cli import terminal
+from flypend.cli import listing, terminal
 from flypend.cli.app import app
 from flypend.cli.bars import progress_bar
 from flypend.files import whole as files
 from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
+from flypend.model.table import vehicle_names
 from flypend.paper import experiment
 from flypend.paper.claims import SETTLED, theorem_claims
 from flypend.pictures import animate, figures
+from flypend.plants import PRESETS
 from flypend.report import paper
 from flypend.settings import runfile
 from flypend.studies.basin import measure_basin
 from tests.few import slow
 from tests.folders import content
 
+STEPPED = fp.Controller(name="stepped", function=lambda t, state: fp.Wrench(5.4, (0.0, 0.0, 0.0)))
 ENVIRONMENT = {**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}
 
 
@@ -414,7 +418,19 @@ def test_a_wrong_command_is_one_line_and_code_2(call, tmp_path, arguments, words
 
 def test_a_wrong_command_in_a_process_of_its_own(tmp_path):
     done = flypend(tmp_path, "fly")
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "flypend: No such command 'fly'.\n")
+    assert (done.returncode, done.stdout, done.stderr) == (
+        2,
+        "",
+        "flypend: No such command 'fly'. See flypend --help.\n",
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "command"),
+    [(("run",), "run"), (("check", "--runs", "0"), "check"), (("vehicle", "new"), "vehicle new")],
+)
+def test_a_wrong_command_says_where_its_arguments_are_explained(call, arguments, command):
+    assert call(*arguments)[2].endswith(f" See flypend {command} --help.\n")
 
 
 # What fails on the way ----------------------------------------------------------------------------------------------
@@ -546,6 +562,18 @@ def test_a_sweep_that_is_stopped_says_which_command_goes_on(number, tmp_path):
     assert "--force" not in told
 
 
+def test_an_interrupted_self_test_is_one_line(monkeypatch, capsys):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("flypend.compile.llvm.target.native", interrupted)
+    monkeypatch.delitem(sys.modules, "flypend.selftest", raising=False)
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("flypend.selftest", run_name="__main__")
+    assert ended.value.code == 128 + signal.SIGINT
+    assert capsys.readouterr().err == "flypend: interrupted\n"
+
+
 # Words ----------------------------------------------------------------------------------------------------------------
 
 
@@ -567,6 +595,20 @@ def test_laws_and_vehicles_are_listed_with_gains_units_and_defaults(call):
     machine = fp.vehicle("hehn2011")
     assert f"{4 * machine.rotor_limits[1] / machine.weight:.3g}" in told
     assert call("laws", "lqqr")[0] == 2
+
+
+@pytest.mark.parametrize("columns", ["80", "40"])
+def test_names_in_lists_are_whole_in_a_narrow_terminal(monkeypatch, capsys, columns):
+    """What one types elsewhere is not cut short with …; in a table of gains, it goes on in the next line."""
+    monkeypatch.setattr(listing, "console", Console(width=int(columns)))
+    listing.vehicles.callback(None, None)
+    told = capsys.readouterr().out
+    assert set(vehicle_names()) <= set(told.split())
+    listing.laws.callback("lqr", "hehn2011")
+    told = capsys.readouterr().out
+    assert "…" not in told
+    if columns == "80":
+        assert set(fp.laws.lqr().table) <= set(told.split())
 
 
 def test_a_vehicle_is_told_as_its_file_and_drawn(call, tmp_path):
@@ -682,6 +724,22 @@ def test_help_says_whether_a_command_writes_a_folder_or_a_file():
     assert {name for name, kind in kinds.items() if kind == "FILE"} == files
     assert {name for name, kind in kinds.items() if kind == "STORE"} == {"sweep"}
     assert {"run", "check", "compare", "figures", "tune"} <= {name for name, kind in kinds.items() if kind == "DIR"}
+
+
+@pytest.mark.parametrize("name", ["compare", "check", "map"])
+def test_help_names_every_plant_that_a_command_takes(call, name):
+    (option,) = (each for each in app.commands[name].params if each.name == "plant")
+    known = [one for one in PRESETS if (name, one) != ("check", "ideal")]
+    assert re.findall("|".join(PRESETS), option.help) == known
+    assert all(one in call("run", "--help")[1] for one in PRESETS)
+
+
+def test_compiled_c_is_not_called_python(call, tmp_path, monkeypatch):
+    text = 'vehicle = "hehn2011"\nduration = 0.1\nlaw.name = "lqr"\nstart = { y = [0.0, 0.0, 1.0] }\n'
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    monkeypatch.setattr(runfile, "_controller", lambda law, *_: dataclasses.replace(STEPPED, name=f"{law.name}-c"))
+    assert "step by step in Python" in call("run", "own.toml", "--no-figures")[2]
+    assert call("run", "own.toml", "--no-figures", "--controller", "c")[2] == ""
 
 
 def test_the_gains_of_all_laws_fit_100_columns_in_a_pipe(tmp_path):

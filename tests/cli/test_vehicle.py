@@ -39,5 +39,26 @@ def test_nonsense_is_one_line_and_writes_nothing(call, tmp_path, changes, said):
 
 
 def test_what_is_missing_is_said(call):
-    assert call("vehicle")[::2] == (2, "flypend: Missing command: new\n")
-    assert call("vehicle", "new")[::2] == (2, "flypend: Missing option '--mass'.\n")
+    assert call("vehicle")[::2] == (2, "flypend: Missing command: new. See flypend vehicle --help.\n")
+    assert call("vehicle", "new")[::2] == (2, "flypend: Missing option '--mass'. See flypend vehicle new --help.\n")
+
+
+def test_a_file_with_numbers_put_in_by_hand_is_kept(call, tmp_path):
+    file = tmp_path / "mine.toml"
+    for _ in range(2):
+        assert call("vehicle", "new", *PARTS)[0] == 0
+    written = file.read_text(encoding="utf-8")
+    file.write_text(written.replace("rotor_spins = [1", "rotor_spins = [1.0"), encoding="utf-8")
+    code, _, told = call("vehicle", "new", *PARTS)
+    assert code == 2
+    assert told.startswith("flypend: mine.toml: expected no file, or the same vehicle (--force overwrites it), got ")
+    assert "[1.0" in file.read_text(encoding="utf-8")
+    assert call("vehicle", "new", *PARTS, "--force")[0] == 0
+    assert file.read_text(encoding="utf-8") == written
+
+
+def test_a_rehearsal_overwrites_no_flight(call, tmp_path):
+    (tmp_path / "flight.csv").write_text("a minute of a real flight", encoding="utf-8")
+    code, _, told = call("identify", "flight.csv", "--rehearse", "--duration", "10.5")
+    assert (code, told) == (2, "flypend: flight.csv: expected no file yet, as --rehearse writes it, got one\n")
+    assert (tmp_path / "flight.csv").read_text(encoding="utf-8") == "a minute of a real flight"

@@ -302,6 +302,13 @@ def test_without_gravity_there_is_no_inverted_pose(law):
             r"^law.control: expected a function \(t, state, vehicle, gains\[, forces\]\), got one \(t, s\)$",
         ),
         (lambda: fp.Controller(name="a", function=lambda t: None), r"^controller.function: .*, got one \(t\)$"),
+        (lambda: fp.random_starts(3), r"^random_starts.seed: expected an integer, got nothing$"),
+        (lambda: fp.simulate_ensemble(), r"^simulate_ensemble.vehicle: expected a Vehicle, such as .*, got nothing$"),
+        (
+            lambda: fp.Vehicle.estimate(mass="620 g"),
+            r"^estimate.arm: expected .*mass without the rod, .*, got nothing$",
+        ),
+        (lambda: fp.Vehicle.estimate(0.62), r"^estimate: expected arguments by name, such as mass=, got 1 without$"),
         (lambda: fp.Law(name="a", e3="up", control=None), r"^law.control: expected a function .*, got None$"),
     ],
 )

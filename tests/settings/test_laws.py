@@ -125,6 +125,10 @@ def test_other_processes_are_sent_a_law_of_a_file(here):
         ("laws/mine.py:balanse", "--law: expected one of balance, numeric, .*got 'balanse' (did you mean 'balance'?)"),
         ("laws/none.py:f", "--law: expected a file that is there, got 'laws/none.py' in "),
         ("laws/mine.py:", "--law: expected file.py:function or module:function, got 'laws/mine.py:'"),
+        (
+            "laws/mine.py",
+            "--law: expected file.py:function, module:function or a file .onnx or .npz, got 'laws/mine.py'",
+        ),
         ("laws/mine.py:number", "--law: expected a Law, a Controller, a function that makes one, or "),
         ("laws/mine.py:bare", "--law: expected a default for every gain, got bare without one for k"),
         ("laws/mine.py:broken_maker", "laws/mine.py:23: ZeroDivisionError: division by zero (in the law broken_maker)"),

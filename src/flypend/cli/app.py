@@ -147,9 +147,9 @@ def run(
     """Fly WHAT: an experiment of the paper (1, 2, 2-projected, 3, 4, 5), or a TOML file of your own.
 
     A TOML file has the keys vehicle (a name or a table), law (a name or a function, and gains), start (x, x_dot, R,
-    omega, y, y_dot) and duration in seconds. Optional keys are plant (ideal, rotors, mujoco, hehn2011, or a table),
-    rtol, and experiment, which supplies missing values from the paper. A law that holds a position accepts a reference
-    (a shape and its parameters). controller = "c" flies the law as exported C, on rotors and mujoco.
+    omega, y, y_dot) and duration in seconds. Optional keys are plant (ideal, rotors, mujoco, hehn2011, laboratory, or a
+    table), rtol, and experiment, which supplies missing values from the paper. A law that holds a position accepts a
+    reference (a shape and its parameters). controller = "c" flies the law as exported C, on rotors and mujoco.
     """
     from flypend.files.staging import check_writable
     from flypend.files.whole import check_file
@@ -167,7 +167,8 @@ def run(
         refuse_idle("style", why="beside --no-figures")
     chosen = run_file(what, _changes(override, law, controller), law)
     flight = chosen.flight
-    tell_how(flight.law)
+    if chosen.settings.get("controller", "python") == "python":  # of compiled C, the note would be wrong
+        tell_how(flight.law)
     for doubt in forewarn(flight):
         say(f"flypend: warning: {doubt}")
     style_named(style)
@@ -260,7 +261,7 @@ class Starts:
 @laws_option
 @out_option("compare-out")
 @options_of(Starts, "chosen")
-@click.option("--plant", default="rotors", help="ideal, rotors, mujoco or hehn2011.")
+@click.option("--plant", default="rotors", help="ideal, rotors, mujoco, hehn2011 or laboratory.")
 @sensors_option
 @bands_option
 @floor_option
@@ -420,6 +421,8 @@ def _call() -> int:
         if "--debug" in sys.argv[1:]:
             traceback.print_exc()
         message = error.format_message() if isinstance(error, click.ClickException) else str(error)
+        if isinstance(error, click.UsageError) and error.ctx is not None:
+            message += f" See {error.ctx.command_path} --help."
         say(" ".join(f"flypend: {message}".split()))
         return 2
     except (KeyboardInterrupt, click.Abort):

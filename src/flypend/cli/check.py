@@ -16,7 +16,7 @@ from flypend.cli.terminal import bold, console, counter, tell_how
 class Flights:
     """What is flown."""
 
-    plant: str = option("--plant", default="rotors", help="rotors, mujoco or hehn2011.")
+    plant: str = option("--plant", default="rotors", help="rotors, mujoco, hehn2011 or laboratory.")
     sensors: str = option(
         "--sensors",
         default="perfect",
@@ -32,7 +32,7 @@ class Flights:
         is_flag=True,
         help="Name the best law, by default of inverted and learned; if none will do, what to change.",
     )
-    bands: bool = option("--bands", is_flag=True, help=f"Also: {BANDS_HELP}")
+    bands: bool = option("--bands", is_flag=True, help=f"Also f{BANDS_HELP[1:]}")
 
 
 @click.command()

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def vehicle(context: click.Context) -> None:
     """Describe a machine of your own: flypend vehicle new."""
     if context.invoked_subcommand is None:
-        raise click.UsageError("Missing command: new")
+        raise click.UsageError("Missing command: new.")
 
 
 @vehicle.command()
@@ -37,11 +37,13 @@ def vehicle(context: click.Context) -> None:
 @click.option("--rotors", default=4, help="At equal angles.")
 @click.option("--mount", default="gimbal", help="gimbal, hub or cup.")
 @out_option("mine.toml", "The vehicle, with bands and sources.")
-def new(out: Path, **measured: Any) -> None:
+@click.option("--force", is_flag=True, help="Overwrite a file that differs.")
+def new(out: Path, force: bool, **measured: Any) -> None:
     """Write a vehicle file from weights, lengths and parts; guess the rest.
 
     Quantities are SI numbers or have a unit: 620g, 17cm, 820gf.
     """
+    from flypend.errors import InputError
     from flypend.files.whole import check_file, whole_file
     from flypend.model import Vehicle
     from flypend.model.estimate import Measured, guess
@@ -49,6 +51,10 @@ def new(out: Path, **measured: Any) -> None:
     check_file(out, (".toml",))
     found = guess(Measured(**measured, name=out.stem))
     machine = Vehicle(**found.fields)
+    if (
+        not force and out.exists() and out.read_text(encoding="utf-8", errors="replace") != found.text()
+    ):  # numbers put in by hand are work
+        raise InputError(str(out), "no file, or the same vehicle (--force overwrites it)", "another file")
     with whole_file(out, (".toml",)) as partial:
         partial.write_text(found.text(), encoding="utf-8")
     surplus = len(machine.rotor_spins) * machine.rotor_limits[1] / machine.weight
@@ -111,6 +117,8 @@ def identify(
             if (marker, command) != ((0.0, 0.0, 0.0), "newton"):
                 raise InputError("--rehearse", "the rehearsal's own log: no --marker, no --command", "them")
             check_file(log, (".csv",))
+            if log.exists():  # it may be a real flight
+                raise InputError(str(log), "no file yet, as --rehearse writes it", "one")
             guess, flown = rehearsal_of(machine, duration=rehearsal.duration, seed=rehearsal.seed)
             write_log(log, flown.columns)
             machine = guess

@@ -44,7 +44,7 @@ def vehicles(vehicle: str | None, out: Path | None) -> None:
     if vehicle is None:
         if out is not None:
             raise InputError("-o", "a VEHICLE to draw", "none")
-        console.print(_vehicles())
+        console.print(_vehicles(), crop=False)
         return
     text = vehicle_text(vehicle)
     if out is None:
@@ -62,13 +62,16 @@ def _vehicles() -> Any:
     from flypend import model
     from flypend.model.table import vehicle_names
 
-    found = _table("vehicle", "mass kg", "bob kg", "rod m", "thrust/weight", "lag s", "rotors", "gravity m/s²")
+    units = ("mass\nkg", "bob\nkg", "rod\nm", "thrust/\nweight", "lag\ns", "rotors", "g\nm/s²")
+    found = _table("vehicle", *units)
     for name in vehicle_names():
         v = model.vehicle(name)
         rotors = len(v.rotor_spins)
         ratio = f"{rotors * v.rotor_limits[1] / v.weight:.3g}"
         numbers = (f"{x:g}" for x in (v.mass, v.bob_mass, v.rod_length))
         found.add_row(name, *numbers, ratio, f"{v.rotor_lag:g}", str(rotors), f"{v.gravity:g}")
+    for column in found.columns:  # 80 columns; a narrower terminal wraps the lines, not the names
+        column.min_width = max(map(len, column.cells))
     return found
 
 
@@ -93,5 +96,5 @@ def _table(*names: str) -> Any:
     found = Table(box=SIMPLE, padding=(0, 1, 0, 0))
     for place, name in enumerate(names):
         number = 0 < place < len(names) - (names[-1] == "meaning") - (names[-2] == "unit")
-        found.add_column(name, justify="right" if number else "left")
+        found.add_column(name, justify="right" if number else "left", overflow="fold")
     return found

@@ -68,7 +68,7 @@ class Standard:
 
     law: str | None = option("--law", help=f"Fly this law from random starts instead of a study: {LAW_HELP}.")
     vehicle: str | None = option("--vehicle", help="With --law: vehicle name or TOML file.")
-    plant: str = option("--plant", default="rotors", help="With --law: rotors, ideal or hehn2011.")
+    plant: str = option("--plant", default="rotors", help="With --law: ideal, rotors, mujoco, hehn2011 or laboratory.")
     sensors: str = option("--sensors", default="perfect", help=SENSORS_HELP)
     floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
     runs: int = option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")

@@ -15,8 +15,11 @@ from flypend.model.vehicle import Vehicle
 def vehicle(name: str | Path) -> Vehicle:
     """Load the vehicle `name` shipped with the package, or the TOML file at the path `name`. Raises InputError.
 
-    A file has the fields of `Vehicle`; with a `base`, the name of a vehicle or a path from the folder of the file, it
-    needs only those that differ.
+    Parameters
+    ----------
+    name : str or Path
+        Name of a vehicle, such as "hehn2011", or the path of a file with the fields of `Vehicle`. With a `base`, the
+        name of a vehicle or a path from the folder of the file, it needs only those that differ.
     """
     with file_of(name) as path:
         return Vehicle.from_toml(path)

@@ -38,6 +38,7 @@ OTHERS = {
 }
 # Files of a policy, trained elsewhere or by `flypend learn`.
 ONNX, LEARNED = ".onnx", ".npz"
+PLACE = "file.py:function, module:function or a file .onnx or .npz"
 PLACES = ("function", "keep", "cost")  # entries of a law's table that name a function in a file or module
 PLANNED = ("objective", "target")  # what the law "plan" has beside constraints
 _loading = RLock()  # threads of a sweep load one file at once, and a law may load another
@@ -87,7 +88,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     only_known(key, value, ("function", "gains", "e3"))
     where, gains = value["function"], value.get("gains", {})
     if not isinstance(where, str) or not _is_place(where):
-        raise InputError(f"{key}.function", "file.py:function, module:function or a file .onnx or .npz", repr(where))
+        raise InputError(f"{key}.function", PLACE, repr(where))
     if not isinstance(gains, Mapping):
         raise InputError(f"{key}.gains", "a table of gains", repr(gains))
     e3 = one_of(f"{key}.e3", value["e3"], ("up", "down")) if "e3" in value else None
@@ -107,6 +108,8 @@ def law_named(name: str, folder: Path | None = None, key: str = "--law") -> Law 
     """
     if _is_place(name):
         return _own(name, folder, key, None)
+    if name.endswith(".py"):
+        raise InputError(key, PLACE, repr(name))
     return law_from({"name": one_of(key, name, (*law_names(), *OTHERS))}, folder, key)
 
 
@@ -211,7 +214,7 @@ def law_table(value: Any) -> dict[str, Any]:
 
 def table_of(name: str) -> dict[str, Any]:
     """Return the TOML table that specifies the law `name`, as in `law_named`."""
-    return {"function": name} if _is_place(name) else {"name": name}
+    return {"function" if _is_place(name) or name.endswith(".py") else "name": name}
 
 
 def _own(name: str, folder: Path | None, key: str, e3: Any) -> Law | Controller:

@@ -82,6 +82,8 @@ def _read(what: str) -> dict[str, Any]:
     if what in experiment_names():
         return {"experiment": what}
     if "\0" not in what and (what.endswith(".toml") or os.path.exists(what)):  # noqa: PTH110 (False for any invalid name)
+        if what.endswith(".nc"):
+            raise InputError(what, "a run file (.toml)", f"a saved run: flypend replay {what}")
         settings = read_toml(what)
         if study := sorted(STUDY_KEYS & settings.keys()):
             told = f"a study (it has {study[0]}): flypend sweep {what} -o {Path(what).stem}.zarr"

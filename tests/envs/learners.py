@@ -22,7 +22,7 @@ import flypend.envs
 from benchmarks import learners, scores
 from flypend.envs import VectorWorlds
 from flypend.envs.sb3 import VecWorlds, make_vec_env
-from flypend.examples import gradient
+from flypend.examples import gradient, train
 
 ROOT = Path(__file__).parents[2]
 ID = "flypend/Balance-v0"
@@ -58,6 +58,10 @@ def test_the_first_policy_balances_as_a_law():
     exec(compile(TRAINED + ONE + FLOWN, "environments.md", "exec"), names)
     assert names["run"].y[:, 2].min() > 0.5
     assert names["run"].y[-1, 2] > scores.UP
+
+
+def test_the_example_trains_a_policy_that_balances():
+    assert train.train()[1] >= 0.95
 
 
 # Stable-Baselines3 --------------------------------------------------------------------------------------------------

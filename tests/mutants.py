@@ -530,6 +530,13 @@ def main() -> None:
     until = np.inf if given.minutes is None else time.monotonic() + 60 * given.minutes
     gc.freeze()  # no child looks through what it shares
     waiting = [(one, tests) for one, tests in planted if not judged.get(one.name())]
+    names = [one.name() for one, _ in planted]
+
+    def keep() -> None:
+        if given.minutes is not None:
+            kept = judged if given.where else {name: judged[name] for name in names if name in judged}
+            JUDGED.write_text(json.dumps(kept, indent=0, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
+
     catchers = set()
     for one, tests in sorted(waiting, key=lambda each: each[0].name() in judged):  # those that survived come last
         if time.monotonic() > until:
@@ -539,6 +546,7 @@ def main() -> None:
         catchers |= {catcher} - {""}
         seconds |= {test: took for test, took in found["took"].items() if test not in found["failed"]}
         durations.write_text(json.dumps(seconds))
+        keep()
         state = "caught" if catcher else "known" if one.name() in reasons else "SURVIVED"
         print(f"{state:8} {found['seconds']:4.0f} s {one.kind}, line {one.line()}, {one.name()}")
         print(f"      {catcher}", flush=True)
@@ -546,10 +554,8 @@ def main() -> None:
     for test in blamed:
         print(f"fails without a mutation: {test}")
     judged |= {name: "" for name, catcher in judged.items() if catcher in blamed}
-    names = [one.name() for one, _ in planted if one.name() in judged]
-    if given.minutes is not None:
-        kept = judged if given.where else {name: judged[name] for name in names}
-        JUDGED.write_text(json.dumps(kept, indent=0, sort_keys=True, ensure_ascii=False) + "\n", encoding="utf-8")
+    keep()
+    names = [name for name in names if name in judged]
     survived = [name for name in names if not judged[name]]
     new = [name for name in survived if name not in reasons]
     caught, known = len(names) - len(survived), len(survived) - len(new)

@@ -8,6 +8,7 @@ import pytest
 
 import flypend as fp
 from flypend.compile.llvm import jit
+from flypend.errors import named_arguments
 from flypend.laws.own import from_function
 
 VEHICLE, START = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1.0))
@@ -166,6 +167,16 @@ def test_methods_of_records_are_checked_too(monkeypatch):
         with pytest.raises(fp.InputError) as caught:
             call()
         assert caught.value.field == field
+
+
+def test_a_record_is_checked_before_the_call_even_if_nothing_would_fail():
+    @named_arguments
+    def nothing(vehicle: fp.Vehicle) -> None:
+        """Take a vehicle, and leave it alone."""
+
+    for call in (lambda: nothing(3), lambda: nothing(vehicle=3)):
+        with pytest.raises(fp.InputError, match=r"^vehicle: "):
+            call()
 
 
 def test_an_error_of_our_own_stays_what_it_is(monkeypatch):

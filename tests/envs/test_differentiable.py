@@ -146,6 +146,7 @@ def test_jax_differentiates_a_flight():
     [
         ({"mount": "hub"}, "mount"),
         ({"sensors": "mocap"}, "sensors"),
+        ({"plant": fp.Plant(rate=1000, floor=-1)}, "plant.floor"),
         ({"workers": 0}, "workers"),
         ({"raet": 1}, "raet"),
     ],

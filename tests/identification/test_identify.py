@@ -8,6 +8,8 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.identification.manoeuvre import rehearse, write_log
+from flypend.identification.numbers import places
+from flypend.identification.result import T_975
 from tests.identification.test_rosbag import TOPICS, flight, write_bag
 
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)
@@ -105,6 +107,16 @@ def test_the_machine_carries_its_bands_and_the_plant_its_rotors(found):
     assert found.plant.delay == found.delay
     assert np.corrcoef(found.plant.strength, PLANT.strength)[0, 1] > 0.99
     assert found.vehicle.mass == GUESS.mass
+
+
+def test_the_band_of_the_quotient_is_that_of_draws_from_the_covariance(found):
+    at = places(found._fit.search.table)
+    drawn = np.random.default_rng(0).multivariate_normal(
+        np.zeros(len(found._fit.covariance)), found._fit.covariance, 4000
+    )
+    spread = np.std(drawn[:, at["drag_ratio"].start] - drawn[:, at["inertia"].stop - 1])
+    low, high = found.torque_over_inertia
+    assert np.log(high / low) / 2 == pytest.approx(T_975 * spread, rel=0.04)  # of 4,000 draws: 1.1 %, at 3.5 σ
 
 
 def test_the_report_says_what_was_found_and_how_well(found):

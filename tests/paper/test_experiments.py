@@ -531,6 +531,20 @@ def test_the_sign_of_the_work_is_not_shown_if_the_equations_had_it_right(runs, m
     assert not statements.work_sign(runs).shown
 
 
+def test_one_state_that_departs_is_in_the_numbers_of_the_work(runs, monkeypatch):
+    real = statements.energy_rate
+
+    def disturbed(*given):
+        rate = np.array(real(*given))
+        rate[7] += 3.0
+        return rate
+
+    told = list(statements.work_sign(runs).evidence.values())
+    monkeypatch.setattr(statements, "energy_rate", disturbed)
+    for before, after in zip(told, statements.work_sign(runs).evidence.values(), strict=True):
+        assert after > 1e6 * max(before, 1e-15)
+
+
 def test_the_rate_of_the_energy_is_that_of_the_energy_along_a_run(runs):
     run = runs.corrected["1"]
     energy = fp.model.total_energy(run.states, run.vehicle, "down")

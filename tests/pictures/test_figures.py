@@ -393,6 +393,16 @@ def test_stop_motion_is_the_same_in_both_frames_with_the_bob_under_the_pivot_at_
     np.testing.assert_allclose(*centres, atol=1e-9)
 
 
+def test_rods_on_a_long_path_are_enlarged_to_be_seen():
+    start = fp.State(x=(100, 0, 0), y=(0, 0, 1))
+    flown = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), start, 20.0)
+    ax = figures.stop_motion(flown, 6).axes[0]
+    path = np.concatenate([line.get_xydata() for line in ax.get_lines()[:2]])
+    rods = np.array(ax.collections[0].get_segments())
+    length = np.max(np.linalg.norm(rods[:, 1] - rods[:, 0], axis=-1))
+    assert 0.025 < length / np.ptp(path, axis=0).max() < 0.07  # factors are up to 2.5 apart
+
+
 def test_stop_motion_of_a_run_that_ended_early(singular):
     assert "singular" in words(figures.stop_motion(singular))
     assert len(stamps(figures.stop_motion(at_the_start(singular)))) == 1

@@ -150,7 +150,7 @@ def _check_calls(function: Any, name: str, documented: Any, bound: int = 0, befo
                 try:
                     check_kind(field, given[field] if field in given else args[place], kind)
                 except InputError:  # a misspelt argument comes first
-                    _check_call(name, signature()[0], args[bound:], given, documented)
+                    _check_names(name, signature()[0], given)
                     raise
         try:
             return function(*args, **given)
@@ -167,9 +167,8 @@ def _check_call(
     name: str, known: Sequence[inspect.Parameter], args: Sequence[Any], given: Mapping[str, Any], documented: Any
 ) -> None:
     """Raise InputError if a call of `name` does not fit the `known` arguments of what is `documented`."""
+    _check_names(name, known, given)
     kinds = {parameter.kind for parameter in known}
-    if inspect.Parameter.VAR_KEYWORD not in kinds:
-        only_known(name, given, [parameter.name for parameter in known])
     by_place = [parameter for parameter in known if parameter.kind is parameter.POSITIONAL_OR_KEYWORD]
     if len(args) > len(by_place) and inspect.Parameter.VAR_POSITIONAL not in kinds:
         told = f"such as {known[0].name}=" if known else "none"
@@ -184,6 +183,12 @@ def _check_call(
         ):
             expected = documentation_of(documented, parameter.name, _names_of(parameter.annotation))
             raise InputError(f"{name}.{parameter.name}", expected, "nothing")
+
+
+def _check_names(name: str, known: Sequence[inspect.Parameter], given: Mapping[str, Any]) -> None:
+    """Raise InputError for the first argument `given` to `name` that is not `known`."""
+    if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in known):
+        only_known(name, given, [parameter.name for parameter in known])
 
 
 def documentation_of(target: Any, name: str, otherwise: str = "a value") -> str:

@@ -179,6 +179,13 @@ def test_a_record_is_checked_before_the_call_even_if_nothing_would_fail():
             call()
 
 
+@pytest.mark.parametrize("name", [{"x": 1.0}, 3, None])
+def test_a_name_is_a_word(name):
+    """A table [name] in a vehicle's file was taken, and ended in a traceback."""
+    with pytest.raises(fp.InputError, match=r"^vehicle\.name: "):
+        fp.Vehicle.from_dict(VEHICLE.to_dict() | {"name": name})
+
+
 def test_an_error_of_our_own_stays_what_it_is(monkeypatch):
     """Negative control: a right call that fails inside is no bad input."""
 

@@ -110,8 +110,9 @@ def only_known(field: str, given: Iterable[str], known: Iterable[str]) -> None:
 def named_arguments(target: F) -> F:
     """Decorator of public functions and records: a call with wrong arguments raises InputError, as a wrong value does.
 
-    Arguments that are to be records, such as a Vehicle, are checked before the call; names and all other types only if
-    it fails. A record's public methods are checked only if they fail: equations pass vehicles of symbols to them.
+    Arguments that are to be records, such as a Vehicle, or words are checked before the call; names and all other types
+    only if it fails. A record's public methods are checked only if they fail: equations pass vehicles of symbols to
+    them.
     """
     if not isinstance(target, type):
         return cast("F", _check_calls(target, target.__name__, target, bound=_bound(target)))
@@ -131,7 +132,7 @@ def _bound(function: Any) -> int:
 def _check_calls(function: Any, name: str, documented: Any, bound: int = 0, before: bool = True) -> Any:
     """Return `function`, which is called `name` in messages; its first `bound` arguments are not the caller's.
 
-    Records among the arguments are checked `before` the call, if they are.
+    Records and words among the arguments are checked `before` the call, if they are.
     """
 
     @functools.lru_cache(maxsize=1)  # annotations can be read once all modules are imported
@@ -139,14 +140,18 @@ def _check_calls(function: Any, name: str, documented: Any, bound: int = 0, befo
         known = list(inspect.signature(function).parameters.values())[bound:]
         kinds = [_kind_of(parameter.annotation, function) for parameter in known]
         named = [parameter.replace(annotation=kind) for parameter, kind in zip(known, kinds, strict=True)]
-        records = [(bound + i, one.name, one.annotation) for i, one in enumerate(named) if _is_record(one.annotation)]
-        return named, records if before else []
+        early = [(bound + i, one.name, one.annotation) for i, one in enumerate(named) if _is_early(one.annotation)]
+        return named, early if before else []
 
     @functools.wraps(function)
     def checked(*args: Any, **given: Any) -> Any:
         for place, field, kind in signature()[1]:
             if field in given or place < len(args):
-                check_kind(field, given[field] if field in given else args[place], kind)
+                try:
+                    check_kind(field, given[field] if field in given else args[place], kind)
+                except InputError:  # a misspelt argument comes first
+                    _check_call(name, signature()[0], args[bound:], given, documented)
+                    raise
         try:
             return function(*args, **given)
         except InputError:
@@ -228,8 +233,9 @@ def _members(kind: Any) -> tuple[Any, ...]:
     return get_args(kind) if isinstance(kind, UnionType) or get_origin(kind) is Union else (kind,)
 
 
-def _is_record(kind: Any) -> bool:
-    return any(_bare(one) in RECORDS for one in _members(kind))
+def _is_early(kind: Any) -> bool:
+    """Whether a wrong value may do its harm far away: one of a record, or of a word, such as a vehicle's name."""
+    return kind is str or any(_bare(one) in RECORDS for one in _members(kind))
 
 
 def check_kind(field: str, value: Any, kind: Any) -> None:

@@ -280,6 +280,12 @@ def test_random_starts_take_whole_numbers(runs, seed):
         fp.random_starts(runs, seed)
 
 
+def test_a_lag_that_a_law_knows_is_one_of_the_vehicle():
+    prompt = fp.vehicle("hehn2011").replace(rotor_lag=0.0)
+    with pytest.raises(fp.InputError, match=r"^vehicle\.rotor_lag: "):
+        fp.simulate(prompt, fp.laws.lqr(), fp.State(y=(0, 0, 1)), 0.1, plant=fp.Ideal(lag=True))
+
+
 @pytest.mark.parametrize("law", ["inverted", "lqr"])
 def test_without_gravity_there_is_no_inverted_pose(law):
     with pytest.raises(fp.InputError, match=r"^vehicle\.gravity: "):

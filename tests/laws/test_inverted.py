@@ -768,3 +768,16 @@ def test_the_plant_of_hehn_and_dandrea_takes_the_same_law():
     assert _succeeds(run)
     slow = fp.simulate(VEHICLE, LAW, STARTS[0], 10.0, plant=Plant(rate=50.0, delay=0.02))
     assert _succeeds(slow)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_force_within_the_cone_of_the_mount_lacks_nothing_and_another_gets_to_its_edge(seed):
+    rng = np.random.default_rng(seed)
+    F, y, cone = rng.standard_normal(3), geo.unit(rng.standard_normal(3)), rng.uniform(0.2, 1.4)
+    lacking = float(throw.missing_along(ca.DM(F), ca.DM(y), cone))
+    angle = np.arccos(F @ y / np.linalg.norm(F))
+    if angle <= cone:
+        assert lacking == 0
+    else:
+        raised = F + lacking * y
+        assert np.arccos(raised @ y / np.linalg.norm(raised)) == pytest.approx(cone, abs=1e-9)

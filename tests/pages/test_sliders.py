@@ -5,7 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.flight.live import live_loop
-from flypend.pages.sliders import plant_sliders
+from flypend.pages.sliders import _last_good, plant_sliders
 from flypend.plants import Plant, Wind
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -30,3 +30,8 @@ def test_a_callable_law_has_no_live_page(tmp_path):
         run.to_html(tmp_path / "flight.html", live=True)
     with pytest.raises(fp.InputError, match=r"^live: expected a law in symbols"):
         live_loop(run.flight)
+
+
+def test_a_slider_ends_where_its_values_begin_to_be_refused():
+    assert _last_good(lambda value: value > 0.3, 0.1, 1.0) == pytest.approx(0.3, rel=1e-3)
+    assert _last_good(lambda value: value > 1.0, 0.1, 1.0) == 1.0

@@ -32,8 +32,9 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
+# The slowest test takes a minute alone, several beside much else: one that takes ten hangs, and shows where.
 test: lint test-tools
-	$(BIN)/pytest -n 2 --dist worksteal --durations=20
+	$(BIN)/pytest -n 2 --dist worksteal --durations=20 --timeout 600
 
 # Plants 200 mutations in the source, and reports those that no test catches; parts of it: make mutants WHERE=board
 mutants: setup test-tools

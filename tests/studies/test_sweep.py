@@ -7,6 +7,8 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
+from contextlib import nullcontext
 
 import numpy as np
 import psutil
@@ -400,6 +402,25 @@ def test_a_scheduler_that_does_not_answer_is_told(tmp_path, monkeypatch):
         fp.sweep(SHORT, tmp_path / "a.zarr", scheduler="tcp://127.0.0.1:9")
 
 
+@pytest.mark.parametrize("ready", [False, True], ids=["a chunk", "its columns"])
+def test_what_never_comes_from_a_scheduler_that_is_gone_is_not_waited_for(ready, monkeypatch):
+    """Dask's own waits, for a chunk and for its columns, end with what they wait for."""
+    import distributed
+
+    from flypend.studies.sweep import cluster
+
+    states = iter(["running"] * 3)
+    status = property(lambda _: next(states, "closed"))
+    future = type("Future", (), {"result": lambda *_: Future().result(0.01)})()  # not done by then
+    methods = {"status": status, "nthreads": lambda _: {"one": 1}, "submit": lambda *_, **__: future}
+    client = type("Client", (), methods)()
+    monkeypatch.setattr(cluster, "_client", lambda _: nullcontext(client))
+    coming = type("Coming", (), {"has_ready": lambda _: ready, "__next__": lambda _: future})()
+    monkeypatch.setattr(distributed, "as_completed", lambda _: coming)
+    with pytest.raises(fp.InputError, match=r"^scheduler: expected a cluster that stays"):
+        next(cluster.fly_chunks("", "", [0], "tcp://127.0.0.1:9"))
+
+
 def test_the_paper_s_starts_succeed_and_a_torn_gain_does_not(tmp_path):
     """A sweep of one run from experiment 1 agrees with what the paper's figure shows; k_d near 0 does not converge."""
     case = experiment("1")
@@ -421,7 +442,7 @@ def test_a_worker_that_knows_other_equations_is_not_believed():
         fly_chunk(study.text(), 0, "0" * 64)
 
 
-def test_a_cluster_that_is_lost_is_told_and_the_store_goes_on(tmp_path, uninterrupted):
+def test_a_cluster_that_is_lost_is_told_and_the_store_goes_on(tmp_path, uninterrupted, capfd):
     """The scheduler closes under the sweep: one line; the same sweep on this machine then completes the store."""
     from distributed import LocalCluster
 
@@ -438,6 +459,7 @@ def test_a_cluster_that_is_lost_is_told_and_the_store_goes_on(tmp_path, uninterr
         with pytest.raises(fp.InputError) as caught:
             fp.sweep(LONG, path, scheduler=cluster.scheduler_address, progress=tell)
     assert str(caught.value).startswith("scheduler: expected a cluster that stays")
+    assert capfd.readouterr().err == ""  # where Dask would write pages
     assert not (content(path).keys() >= content(uninterrupted).keys())
     fp.sweep(LONG, path, workers=1)
     assert content(path) == content(uninterrupted)

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import logging
 import re
+import time
 from collections.abc import Generator, Iterable, Iterator
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from typing import Any
 
 from flypend.errors import InputError
+from flypend.signals import PERIOD, poll
 from flypend.studies.sweep.chunk import fly_chunk
 
 # Chunks submitted per core: one runs, one waits.
 AHEAD = 2
 CONNECT = 10.0
+# Seconds for the columns of a chunk to come, at most some megabytes, before the connection is looked at.
+PATIENCE = 60.0
+STAYS = "a cluster that stays up (rerun the same command to resume)"
 ADDRESS = re.compile(r"([a-z]+://)?([\w.-]+|\[[0-9a-fA-F:.]+\]):\d{1,5}", re.ASCII)
 
 
@@ -37,17 +44,43 @@ def fly_chunks(
         cores = sum(client.nthreads().values()) or 1
 
         def submit(number: int) -> Any:
+            _check_running(client)
             return client.submit(fly_chunk, text, number, program, key=f"flypend-{number}-{hash(text)}", pure=False)
 
         futures = {submit(number): number for _, number in zip(range(AHEAD * cores), waiting, strict=False)}
         coming = as_completed(futures)
-        for future in coming:
-            yield futures.pop(future), _result(future)
-            number = next(waiting, None)
-            if number is not None:
-                following = submit(number)
-                futures[following] = number
-                coming.add(following)
+        while futures:
+            try:
+                while not coming.has_ready():  # `next` would wait for ever for a scheduler that is gone
+                    _check_running(client)
+                    poll()
+                    time.sleep(PERIOD)
+                future = next(coming)
+                yield futures.pop(future), _result(future, client)
+                number = next(waiting, None)
+                if number is not None:
+                    following = submit(number)
+                    futures[following] = number
+                    coming.add(following)
+            except (CancelledError, OSError, distributed.KilledWorker) as error:
+                told = str(error).rpartition("reason: ")[2].split(". ")[0] or type(error).__name__
+                raise InputError("scheduler", STAYS, told) from None
+
+
+def _result(future: Any, client: Any) -> dict[str, Any]:
+    """Return the columns of a chunk that is done, or raise what it raised."""
+    while True:
+        try:
+            columns: dict[str, Any] = future.result(PATIENCE)
+        except TimeoutError:
+            _check_running(client)
+        else:
+            return columns
+
+
+def _check_running(client: Any) -> None:
+    if client.status != "running":
+        raise InputError("scheduler", STAYS, "a lost connection to the scheduler")
 
 
 def check_answers(scheduler: str) -> None:
@@ -56,20 +89,6 @@ def check_answers(scheduler: str) -> None:
         raise InputError("scheduler", "the address of a Dask scheduler, such as tls://host:8786", repr(scheduler))
     with _client(scheduler):
         pass
-
-
-def _result(future: Any) -> dict[str, Any]:
-    """The columns of a chunk. Raises InputError if the cluster is lost or workers die."""
-    from concurrent.futures import CancelledError
-
-    import distributed
-
-    try:
-        columns: dict[str, Any] = future.result()
-    except (CancelledError, OSError, distributed.KilledWorker) as error:
-        told = str(error).split(". ")[0] or type(error).__name__
-        raise InputError("scheduler", "a cluster that stays up (rerun the same command to resume)", told) from None
-    return columns
 
 
 @contextmanager
@@ -84,5 +103,11 @@ def _client(scheduler: str) -> Iterator[Any]:
         except (OSError, ValueError, TimeoutError) as error:
             told = f"{scheduler} ({error})"
             raise InputError("scheduler", "the address of a Dask scheduler that answers", told) from None
-        with client:
-            yield client
+        logger = logging.getLogger("distributed.client")
+        level = logger.level
+        logger.setLevel(logging.CRITICAL)  # of a lost scheduler it writes pages, of which one line is told
+        try:
+            with client:
+                yield client
+        finally:
+            logger.setLevel(level)

@@ -66,6 +66,8 @@ JUDGED = Path(__file__).with_name("judged.json")
 LEAST = 4
 # Read the source as text, build packages, or try the documentation.
 BLIND = ("test_architecture", "test_docs", "test_install", "test_release", "test_first_contact", "test_mutants")
+# Fail without a mutation too: flypend's own cache is off here, and a clock that also counts for a limit is coarse.
+UNFIT = ("test_a_cache_on_a_full_disk_is_no_error", "test_a_line_is_printed[rotors]")
 # Data, what is shown to users, and what is a test itself.
 UNSEEN = ("examples", "vehicles", "policies", "__main__.py", "selftest.py")
 OPTIONS = ("-q", "--assert=plain", "-p", "no:cacheprovider", "-p", "no:unraisableexception")
@@ -384,6 +386,7 @@ class Watch:
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
         mine = [one for one in items if (self._known.get(one.nodeid, 0.0) < QUICK) == self._quick]
         self.rest = len(items) - len(mine)
+        mine = [one for one in mine if one.name not in UNFIT]
         items[:] = sorted(mine, key=self._place)
 
     def _place(self, item: pytest.Item) -> tuple[bool, float]:

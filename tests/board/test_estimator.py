@@ -250,6 +250,18 @@ def moved_back(packed, age):
     return fp.State(x=x, x_dot=s.x_dot, R=s.R, omega=s.omega, y=y, y_dot=y_dot).packed()
 
 
+def test_the_frame_that_errors_are_carried_to_is_tangent_to_the_rod_of_then():
+    suite = fp.Sensors(position=QUIET, attitude=QUIET, rod=QUIET, gyro=QUIET)
+    readings, packed, tangent = ca.SX.sym("r", readings_record(suite).length), ca.SX.sym("s", 24), ca.SX.sym("b", 3)
+    history, estimate = History(dict.fromkeys(QUANTITIES, 0), 0.002), fp.State.symbolic(packed)
+    expected = Expected(suite, history, readings, estimate, tangent, ca.SX.eye(3), ca.SX(0, 1))
+    y, B = expected._rod_at(0.05)
+    state, b = some_state(8)
+    basis = np.asarray(ca.Function("f", [packed, tangent], [ca.horzcat(B, y)])(state, b))
+    np.testing.assert_allclose(basis.T @ basis, np.eye(3), atol=1e-12)
+    assert np.linalg.norm(basis[:, 2] - state[18:21]) > 0.05  # the rod has turned
+
+
 @pytest.mark.parametrize(
     ("age", "at_rest", "tolerance"),
     [

@@ -1,10 +1,13 @@
 """The command plan: what it prints and writes, from a run file and without one."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
 import flypend as fp
 from flypend.cli import app as cli
+from flypend.cli.planning import Kept
 
 
 def test_a_swing_up_is_planned_and_flown(tmp_path, capsys):
@@ -34,6 +37,12 @@ def test_the_rod_is_let_down_and_tabled(tmp_path, capsys):
     assert last["y_3 [1]"] < -0.999
     with pytest.raises(fp.InputError, match=r"--end: expected one of inverted, hanging"):
         cli.app(["plan", *out, "--end", "hangin"], standalone_mode=False)
+
+
+def test_a_cube_is_about_the_target():
+    asked = Kept(**{field.name: None for field in fields(Kept)} | {"cube": 0.6, "window": (), "waypoints": ()})
+    box = asked.about((1.0, 0.0, -2.0), {}).box
+    np.testing.assert_allclose(box, [(0.7, -0.3, -2.3), (1.3, 0.3, -1.7)])
 
 
 def test_a_run_file_gives_vehicle_and_start(tmp_path, capsys):

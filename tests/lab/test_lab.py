@@ -41,7 +41,7 @@ from flypend.lab.session import Slot, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.shares import Shares
 from flypend.lab.tuning import tune_loop
-from flypend.lab.worker import END, encode
+from flypend.lab.worker import END, GRACE, encode
 from flypend.laws import law_names
 from flypend.pages.sliders import DEFECTS, sliders_of
 from flypend.pages.starts import directions
@@ -591,7 +591,7 @@ class Clerk:
 
     def stop(self, grace=0.0):
         assert not self.stopped  # told once
-        self.stopped = True
+        self.stopped, self.grace = True, grace
 
     def switch(self, on):
         self.on = on
@@ -648,6 +648,31 @@ def test_of_many_questions_the_last_is_answered_and_nothing_is_left():
     assert sent[-1] == {"number": 201, "part": 2}
     assert [clerk.alive for clerk in clerks.taken] == [True]
     assert clerks.given == clerks.taken  # for the next page
+
+
+def test_each_request_that_is_stopped_without_a_reply_has_twice_as_long_as_the_one_before():
+    class Slow(Clerk):
+        async def work(self, number):
+            while not self.stopped:
+                await asyncio.sleep(0.001)
+            graces.append(self.grace)
+            self.lines.put_nowait(END)
+
+    graces, clerks = [], Clerks()
+
+    async def scenario():
+        clerks.taken.append(Slow(clerks.begun))
+        clerks.take = lambda: asyncio.sleep(0, clerks.taken[0])
+        slot = slot_of([], clerks)
+        for number in range(4):
+            slot.put({"number": number})
+            while clerks.begun[-1:] != [number]:
+                await asyncio.sleep(0.001)
+        slot.drop()
+        await slot._task
+
+    asyncio.run(asyncio.wait_for(scenario(), 60))
+    assert graces == [GRACE, 2 * GRACE, 4 * GRACE, 0.0]  # what is dropped is wanted by nobody
 
 
 def test_a_page_that_closes_ends_its_work_and_no_other(monkeypatch):

@@ -147,6 +147,11 @@ def test_thrust_is_never_negative():
     assert np.min(run.thrust) >= 0
 
 
+def test_without_gravity_there_is_no_upright_rod_to_regulate():
+    with pytest.raises(fp.InputError, match=r"^vehicle\.gravity: "):
+        fp.laws.lqr().bind(HEHN.replace(gravity=0.0))
+
+
 # References ------------------------------------------------------------------------------------------------------
 
 

@@ -8,6 +8,7 @@ import pytest
 
 import flypend as fp
 from flypend.laws import Controller, Gain, Law, LawError, from_function
+from flypend.laws.bound import Control
 from flypend.laws.gain import POSITIVE
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -157,6 +158,14 @@ def test_a_mistake_is_one_line_with_file_and_line(function, line, words):
     assert f"test_own.py:{function.__code__.co_firstlineno + line}: {words} (in the law {function.__name__})" in text
     assert "\n" not in text
     assert str(pickle.loads(pickle.dumps(caught.value))) == text
+
+
+def test_a_signal_is_one_number():
+    def control(t, state, vehicle, gains):
+        return Control(wrench=fp.Wrench(vehicle.weight, 0 * state.omega), signals={"error": state.x})
+
+    with pytest.raises(LawError, match=r"its signal error is not one number, but of shape \(3, 1\)"):
+        Law(name="mine", e3="up", gains=(), control=control).bind(VEHICLE).tried()
 
 
 def test_a_mistake_in_flight_is_told_alike():

@@ -379,6 +379,12 @@ def test_what_is_not_possible_is_refused(changes, field):
         small(**changes)
 
 
+@pytest.mark.parametrize("changes", [{"gravity": 0.0}, {"rotor_limits": (0.0, 1.3)}], ids=["no gravity", "weak"])
+def test_a_machine_that_cannot_hover_is_not_trained(changes):
+    with pytest.raises(fp.InputError, match=r"^vehicle: expected one that can hover"):
+        Training(Course(VEHICLE.replace(**changes), duration=1.0))
+
+
 def test_a_policy_is_a_file(tmp_path):
     policy = Policy(**weights_of(7))
     for name in ("a.npz", "b.npz"):

@@ -6,6 +6,8 @@ import warnings
 import imageio_ffmpeg
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.textpath import TextPath
 from PIL import Image
 
@@ -13,6 +15,7 @@ import flypend as fp
 from flypend import palette
 from flypend.flight.verdict import verdict
 from flypend.pages import sketch
+from flypend.pages.camera import project
 from flypend.paper import experiment
 from flypend.pictures import animate, drawing, frames, lettering
 
@@ -123,6 +126,16 @@ def test_the_cursor_runs_with_time(run):
         columns.append(np.mean(np.nonzero(np.all(strip < 60, axis=(0, 2)))[0]))
     second = 640 * 0.885 / 6.5
     np.testing.assert_allclose(np.diff(columns), [second, 2 * second], atol=1.0)
+
+
+def test_the_rod_of_a_frame_goes_from_pivot_to_bob(run):
+    times = np.array([0.0, 1.0, 3.0])
+    camera = drawing.camera_for(run, "side")
+    shape = drawing.sketch_at(run, times, drawing.states_at(run, times))
+    part = frames._body(Figure().add_subplot(), shape, camera, run.vehicle)
+    for i in range(3):
+        (rod,) = (one for one in part(i) if isinstance(one, Line2D) and one.get_color() == palette.RED)
+        np.testing.assert_array_equal(rod.get_xydata(), project(camera, shape.rod)[i])
 
 
 def test_frames_do_not_depend_on_those_before(run):

@@ -7,7 +7,8 @@ import pytest
 
 import flypend as fp
 from flypend.geometry import norm
-from flypend.planning.window import NEAR
+from flypend.planning.dynamics import Units
+from flypend.planning.window import NEAR, _locate, body_of, through
 from tests.few import slow
 
 HEHN = fp.vehicle("hehn2011")
@@ -114,6 +115,16 @@ def test_room_of_a_machine_that_stands_in_the_middle():
     low = fp.Window((0, 0, 0), 2.0, 1.0).room(state, HEHN)
     np.testing.assert_allclose(low, 0.5 - HEHN.reach - HEHN.body.rod_radius, atol=1e-12)
     assert fp.Window((1, 0, 0), 0.1, 0.1).room(state, HEHN) == np.inf
+
+
+def test_the_disc_about_the_rotors_is_where_they_are():
+    vehicle = HEHN.replace(rotor_positions=np.add(HEHN.rotor_positions, (0, 0, 0.05)))
+    state, units = fp.State.random(np.random.default_rng(1)), Units.of(vehicle)
+    numbers = through(DOOR, vehicle, (START, fp.State(x=HOVER["target"], y=(0, 0, 1))), np.zeros(3), 0.0)
+    points = np.array(_locate()(state.packed() / units.of_state, numbers))[:, 1:].reshape(2, 5, 3) * units.length
+    middle = DOOR.inside(state.x + 0.05 * state.R[:, 2])
+    np.testing.assert_allclose(points[:, 3:].mean(axis=1), [middle, middle], atol=1e-12)
+    assert norm(points[:, 3:] - middle).max() <= body_of(vehicle)[0] * (1 + 1e-12)
 
 
 def test_waypoints_are_passed_in_order():

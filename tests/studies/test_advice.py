@@ -50,7 +50,10 @@ def test_drawn_vehicles_count_where_they_were_flown():
 
 
 def test_for_rotors_too_weak_to_hover_stronger_ones_are_advised_and_a_longer_rod_is_not():
-    found = {name: one for one in changes_of(weak(1.3)) for name in one.factors}
+    told = []
+    changes = changes_of(weak(1.3), progress=lambda _, done, total: told.append((done, total)))
+    assert told == [(done, len(CHANGES) + 1) for done in range(len(CHANGES))] + [(len(CHANGES) + 1,) * 2]
+    found = {name: one for one in changes for name in one.factors}
     assert found["rotor_limits"].works
     assert not found["rod_length"].works
     assert "N each" in found["rotor_limits"].describe()

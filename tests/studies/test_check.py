@@ -189,6 +189,7 @@ def test_the_figure_shows_every_margin_and_the_boundary(good):
     np.testing.assert_allclose(np.asarray(line.get_ydata(), dtype=float), [100, 97.5, 7.5])
     assert panels[1].get_lines()[0].get_ydata()[-1] == 100
     assert "delay: up to 10 ms" in repr(found)
+    assert margin_cells({"inverted": found, "another": good})[2] == ["delay", margin.describe(), "-"]
 
 
 @pytest.mark.slow

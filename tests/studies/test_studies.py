@@ -538,7 +538,9 @@ def test_what_is_printed_are_the_numbers():
         effort=np.full(4, 1.0049),
         peak_force=np.full(4, 3.4567),
     )
-    line = next(line for line in printed(comparison_table(Comparison({"it": result}))) if line.split()[:1] == ["it"])
+    lines = printed(comparison_table(Comparison({"it": result})))
+    assert next(line for line in lines if line.split()[:1] == ["law"]).split()[-3:] == ["effort", "peak", "N"]
+    line = next(line for line in lines if line.split()[:1] == ["it"])
     assert line.split() == ["it", "4", "75", "(30.1-95.4)", "2/2.9", "0.25/1049", "1", "3.46"]
 
 

@@ -92,7 +92,8 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[i
             break
         theta = after
         if k >= ROUGH:
-            noises = _mix(noises, found.noises, first)
+            driving = np.clip(found.noises.driving, QUIETEST * first.driving, 1e6 * first.driving)
+            noises = replace(noises, driving=driving)
     sandwich = bread @ (scores.T @ scores + np.diag(prior[free])) @ bread
     covariance = np.zeros((len(theta),) * 2)
     covariance[np.ix_(free, free)] = _wider(sandwich, bread)
@@ -150,11 +151,6 @@ def _reading_variances(log: Log) -> Any:
         variance = usual / (20 * median)  # 1² + 3² + 3² + 1²
         found.append(np.clip(variance if np.isfinite(variance) else READ[name] ** 2, 1e-4 * READ[name] ** 2, None))
     return np.array(found)
-
-
-def _mix(before: Noises, told: Noises, first: Noises) -> Noises:
-    driving = np.clip(told.driving, QUIETEST * first.driving, 1e6 * first.driving)
-    return replace(before, driving=driving)
 
 
 def _wider(one: Any, other: Any) -> Any:

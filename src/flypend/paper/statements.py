@@ -25,20 +25,17 @@ def work_sign(_: Runs) -> Finding:
     power = -f * dot(state.z, state.x_dot) + dot(mu, state.omega)  # power of −f R e₃ and mu
     size = np.max(np.abs(power))
     with_work_moved = energy_rate(state, Wrench(-f, mu), body)
+    printed, corrected = (float(np.max(np.abs(error)) / size) for error in (rate + power, with_work_moved - power))
     return Finding(
         "Sign of the work in (hamprin)",
         "∫δL dt = ∫F·δΓ dt",
         "∫δL dt = −∫F·δΓ dt; otherwise the text's thrust −f R e₃ and moment mu enter (xeqn_txt) and (Rfin) as "
         "+f z and −mu",
         {
-            "largest |Ė + P| over 1000 random states, by the printed equations, over the largest |P|": float(
-                np.max(np.abs(rate + power)) / size
-            ),
-            "largest |Ė − P| with the sign of the work corrected, over the largest |P|": float(
-                np.max(np.abs(with_work_moved - power)) / size
-            ),
+            "largest |Ė + P| over 1000 random states, by the printed equations, over the largest |P|": printed,
+            "largest |Ė − P| with the sign of the work corrected, over the largest |P|": corrected,
         },
-        bool(np.max(np.abs(rate + power)) < 1e-9 * size and np.max(np.abs(with_work_moved - power)) < 1e-9 * size),
+        max(printed, corrected) < 1e-9,
     )
 
 

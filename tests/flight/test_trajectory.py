@@ -64,6 +64,8 @@ def test_dense_output_between_samples_is_as_good_as_at_the_steps(run):
 
 
 def test_dense_output_is_continuous_across_steps(run):
+    assert np.all(np.diff(run.interpolant.knots) > 0)
+    assert run.interpolant.knots[-1] == 1.0
     knots = run.interpolant.knots[1:-1]
     left, right = (run.at(knots + side).packed() for side in (-1e-13, 1e-13))
     # The projection after a step moves the state by the drift, up to 20 rtol.

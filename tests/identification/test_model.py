@@ -106,6 +106,7 @@ def test_derivatives_of_readings_are_those_of_their_differences(case):
 def test_the_accelerometer_feels_what_the_centre_of_mass_does(case):
     """By differences of its velocity over a step; at the pivot, 1 cm off, a tumble feels another force."""
     s, gusts, forces, moving, reading = case
+    s = np.array([*s[:15], 6.0, -4.0, 5.0, *s[18:]])  # ω, rad/s: at 1 cm, 0.8 m/s² towards the centre
     h, offset = 1e-5, moving[6:9]
     after = moves(VEHICLE)(s, gusts, np.zeros(LOCAL), forces, 0 * forces, h, 1.0, moving)[0]
     before, now = (fp.State.trusted(packed) for packed in (s, after))

@@ -566,8 +566,9 @@ def test_a_vehicle_as_urdf_moves_as_the_one_as_mjcf(name):
         motor.gear[:] = 0, 0, 1, 0, 0, vehicle.drag_ratio * spin
     theirs = spec.compile()
     assert sum(theirs.body_mass) == pytest.approx(sum(ours.body_mass), rel=1e-6)
-    boxes = theirs.geom_size[theirs.geom_type == mujoco.mjtGeom.mjGEOM_BOX]  # half of what is drawn as the vehicle
-    np.testing.assert_allclose(boxes, 0.04 * np.max(np.abs(vehicle.rotor_positions)), rtol=1e-6)
+    (box,) = ElementTree.fromstring(vehicle.to_urdf()).iter("box")  # what is drawn as the vehicle
+    sides = np.array(box.get("size").split(), dtype=float)
+    np.testing.assert_allclose(sides, 0.08 * np.max(np.abs(vehicle.rotor_positions)), rtol=1e-6)
 
     start = fp.State.random(np.random.default_rng(3))
     u, w = start.R.T @ start.y, start.omega

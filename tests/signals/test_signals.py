@@ -142,6 +142,13 @@ def test_waiting_for_a_call_and_for_a_program_polls():
     assert time.monotonic() - begin < 30
 
 
+def test_calls_that_are_done_at_once_come_in_their_order():
+    calls = [Future() for _ in range(50)]
+    for call in reversed(calls):
+        call.set_result(None)
+    assert list(waiting.as_they_come(calls)) == calls
+
+
 def test_a_program_is_run_as_by_subprocess():
     done = waiting.run([sys.executable, "-c", "print('out'); import sys; sys.exit('err')"], text=True)
     assert (done.returncode, done.stdout, done.stderr) == (1, "out\n", "err\n")

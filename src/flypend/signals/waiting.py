@@ -51,13 +51,14 @@ def call_in_thread(call: Callable[[], T]) -> T:
 
 
 def as_they_come(calls: Sequence[Future[T]]) -> Iterator[Future[T]]:
-    """Yield `calls` as they are done; raise what `poll` does."""
-    left = set(calls)
+    """Yield `calls` as they are done, those done at once in their order; raise what `poll` does."""
+    left = list(calls)
     del calls  # with what they return
     while left:
-        done, left = wait(left, PERIOD, FIRST_COMPLETED)
+        done = wait(left, PERIOD, FIRST_COMPLETED).done
         poll()
-        yield from done
+        coming, left = [call for call in left if call in done], [call for call in left if call not in done]
+        yield from coming
 
 
 @contextmanager

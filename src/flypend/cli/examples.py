@@ -10,8 +10,8 @@ import click
 
 from flypend.cli.options import out_option
 from flypend.cli.terminal import bold, console
-from flypend.errors import InputError
 from flypend.files.staging import check_writable, staging
+from flypend.files.whole import check_same
 
 SUFFIXES = (".toml", ".py")
 
@@ -24,7 +24,8 @@ def examples(out: Path, force: bool) -> None:
     contents = {name: source.read_bytes() for name, source in read_shipped().items()}
     check_writable(out)
     if not force:
-        _check_free(out, contents)
+        for name, content in contents.items():
+            check_same(out / name, content, "the example")
     with staging(out) as folder:
         for name, content in contents.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -47,10 +48,3 @@ def read_shipped() -> dict[PurePosixPath, Traversable]:
         return found
 
     return walk(resources.files("flypend") / "examples", PurePosixPath())
-
-
-def _check_free(out: Path, contents: dict[PurePosixPath, bytes]) -> None:
-    for name, content in contents.items():
-        place = out / name
-        if place.is_file() and place.read_bytes() != content:
-            raise InputError(str(place), "no file, or the example itself (--force overwrites it)", "another file")

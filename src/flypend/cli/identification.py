@@ -43,18 +43,15 @@ def new(out: Path, force: bool, **measured: Any) -> None:
 
     Quantities are SI numbers or have a unit: 620g, 17cm, 820gf.
     """
-    from flypend.errors import InputError
-    from flypend.files.whole import check_file, whole_file
+    from flypend.files.whole import check_file, check_same, whole_file
     from flypend.model import Vehicle
     from flypend.model.estimate import Measured, guess
 
     check_file(out, (".toml",))
     found = guess(Measured(**measured, name=out.stem))
     machine = Vehicle(**found.fields)
-    if (
-        not force and out.exists() and out.read_text(encoding="utf-8", errors="replace") != found.text()
-    ):  # numbers put in by hand are work
-        raise InputError(str(out), "no file, or the same vehicle (--force overwrites it)", "another file")
+    if not force:
+        check_same(out, found.text().encode(), "the vehicle")
     with whole_file(out, (".toml",)) as partial:
         partial.write_text(found.text(), encoding="utf-8")
     surplus = len(machine.rotor_spins) * machine.rotor_limits[1] / machine.weight

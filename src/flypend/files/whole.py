@@ -44,6 +44,12 @@ def check_file(path: str | Path, suffixes: Sequence[str]) -> None:
         raise _DroppedError
 
 
+def check_same(path: Path, content: bytes, what: str) -> None:
+    """Raise InputError if another file than `what`, of this `content`, stands at `path`: it may hold someone's work."""
+    if path.is_file() and path.read_bytes() != content:
+        raise errors.InputError(str(path), f"no file, or {what} itself (--force overwrites it)", "another file")
+
+
 class _DroppedError(Exception):
     """Raised inside `whole_file` to abandon the write."""
 

@@ -4,6 +4,7 @@ import copy
 import pickle
 import re
 
+import casadi as ca
 import gymnasium
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from gymnasium.utils.env_checker import check_env
 import flypend as fp
 from benchmarks import omnidrones_tasks
 from flypend.envs import Randomisation, VectorWorlds, World, environment
+from flypend.envs.draws import Draws
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
 from flypend.envs.make import TASKS as BUILT_IN
@@ -540,6 +542,17 @@ def test_what_has_been_flown_is_a_run(tmp_path):
     assert np.array_equal(run.packed[-1], world.worlds.states[0, :24])
     run.to_html(tmp_path / "a.html")
     assert (tmp_path / "a.html").stat().st_size > 1e5
+
+
+def test_a_rotation_that_a_task_draws_is_one_and_any_is_as_likely():
+    draws = Draws()
+    R = draws.rotation()
+    shares = np.random.default_rng(0).uniform(size=(3, 4000))
+    drawn = np.array(ca.Function("drawn", [draws.symbols], [ca.vec(R)]).map(4000)(shares)).T.reshape(-1, 3, 3)
+    np.testing.assert_allclose(np.swapaxes(drawn, 1, 2) @ drawn, np.broadcast_to(np.eye(3), drawn.shape), atol=1e-14)
+    np.testing.assert_allclose(np.linalg.det(drawn), 1)
+    # Each entry has mean 0 and variance 1/3: of 4,000 draws, four deviations.
+    assert np.abs(drawn.mean(axis=0)).max() < 4 * np.sqrt(1 / 3 / 4000)
 
 
 # What is refused -----------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ import flypend as fp
 from benchmarks.app_cost import HEADERS, LAWS, exported, size, stack
 from flypend.export import fits
 from flypend.export.app import AIRFRAMES, limit_rotors
+from flypend.export.records import params_of
 from tests.few import few, slow
 
 LAW = fp.laws.inverted()
@@ -359,6 +360,23 @@ def more(request, tmp_path_factory):
     for name in HEADERS:
         (place / name).write_text('#include "firmware.h"\n')
     return request.param, _library(place)
+
+
+@pytest.mark.parametrize(("target", "name"), [("crazyflie", "crazyflie"), ("px4", "hehn2011")])
+def test_a_rod_that_is_not_light_is_told_to_the_firmware_as_the_pendulum_that_swings_alike(target, name, tmp_path):
+    light = fp.vehicle(name)
+    made = light.replace(**fp.rod_with_bob(light.bob_mass / 2, light.rod_length, light.bob_mass / 2))
+    vehicle = fp.export_app(target, LAW, made, tmp_path, height=3.0)
+    if target == "px4":
+        table = (tmp_path / "module.yaml").read_text()
+        found = [
+            re.search(rf"FPD_{key}:.*?default: (\S+)", table, re.DOTALL)[1] for key in ("MASS", "BOB_MASS", "ROD_LEN")
+        ]
+    else:
+        found = re.search(r"asked = \{([^}]*)\}", (tmp_path / "flypend_app.c").read_text())[1].split(", ")[:3]
+    numbers = [float(number.rstrip("f")) for number in found]
+    np.testing.assert_allclose(numbers, params_of(vehicle)[:3], rtol=1e-6)  # what the law is called with
+    assert abs(numbers[2] - vehicle.rod_length) > 0.05 * vehicle.l  # negative control
 
 
 def test_an_app_with_more_before_the_law_keeps_its_rules(more):

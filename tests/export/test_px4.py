@@ -22,7 +22,7 @@ HEIGHT, RATE = 4.0, 400.0
 ORDER = (2, 0, 3, 1)  # rotor i of the vehicle is this motor of PX4
 NONE, ROTORS, PARAMETERS, GYRO_RATE, IMU, ATTITUDE, POSITION, BOB, LOW, REFUSED = range(10)
 NUMBERS = {
-    "FPD_MASS": VEHICLE.mass, "FPD_BOB_MASS": VEHICLE.bob_mass, "FPD_ROD_LEN": VEHICLE.rod_length,
+    "FPD_MASS": VEHICLE.M, "FPD_BOB_MASS": VEHICLE.m, "FPD_ROD_LEN": VEHICLE.l,
     "FPD_FORCE": VEHICLE.rotor_limits[1], "FPD_BOB_DELAY": 0.0, "FPD_HEIGHT": HEIGHT,
 }  # fmt: skip
 UP = fp.State(x=(0.3, -0.2, 5.0), y=(0, 0, 1.0))

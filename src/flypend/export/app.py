@@ -37,6 +37,8 @@ FILES: Mapping[str, tuple[str, ...]] = {
 RATES: Mapping[str, float] = {"crazyflie": 500.0, "px4": 400.0}  # Hz; PX4's is IMU_GYRO_RATEMAX as it comes
 PERIOD = 1e-3  # s, of the firmware's stabilizer
 STREAMS = ("position", "attitude", "rod", "gyro", "accelerometer")  # what a Crazyflie's app can tell an estimator
+# Parameters of the firmware, as the law's record has them: of a rod that is not light, the pendulum that swings alike.
+PENDULUM = {"mass": "M", "bob_mass": "m", "rod_length": "l"}
 LATEST = 0.1  # s, age up to which track_pose and track_rod take a pose
 
 
@@ -150,10 +152,11 @@ def export_app(
     taken = check_fits(made, texts, BUDGETS[target])
     room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
     values = values_of(made, "float") | {
-        **{name: literal(getattr(flown, name), "float") for name in ("mass", "bob_mass", "rod_length")},
+        **{name: literal(getattr(flown, own), "float") for name, own in PENDULUM.items()},
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
         "weight": f"{1e3 * (flown.M + flown.m):.3g}",
         "rod": f"{flown.l:.3g}",
+        "pendulum": f"{flown.M:.4g} kg, {flown.m:.4g} kg and {flown.l:.4g} m",
         "height": literal(room.height, "float"),
         "height_number": repr(room.height),
         "metres": f"{room.height:g}",
@@ -251,9 +254,8 @@ def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:
     """What only the templates of PX4's module take."""
     places, spins = np.array(vehicle.rotor_positions)[:, :2], np.array(vehicle.rotor_spins)
     rows = np.column_stack([places / np.linalg.norm(places, axis=1).mean(), np.sign(spins)])
-    names = {"mass_number": "mass", "bob_mass_number": "bob_mass", "rod_length_number": "rod_length"}
     return _rod_values(1 / rate, "_bob", "_params.rod_length", "_rod") | {
-        **{key: repr(float(getattr(vehicle, name))) for key, name in names.items()},
+        **{f"{name}_number": repr(float(getattr(vehicle, own))) for name, own in PENDULUM.items()},
         "force_number": repr(float(vehicle.rotor_limits[1])),
         "places": ", ".join("{" + ", ".join(literal(float(number), "float") for number in row) + "}" for row in rows),
         "stack": str(PX4_STACK),

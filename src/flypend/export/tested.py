@@ -114,10 +114,10 @@ def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
         raise InputError("law", f"one that swings the rod up on {vehicle.name}, or a height", came)
     assert flown.samples is not None  # since times were given
     motion = flown.samples.in_frame(bound.e3)  # back to e₃ up
-    bob = motion.x + vehicle.l * motion.y
-    lowest = min(motion.x[..., 2].min(), bob[..., 2].min())
-    farthest = max(np.hypot(end[..., 0], end[..., 1]).max() for end in (motion.x, bob))
-    highest = max(motion.x[..., 2].max(), bob[..., 2].max())
+    tip = motion.x + vehicle.reach * motion.y
+    lowest = min(motion.x[..., 2].min(), tip[..., 2].min())
+    farthest = max(np.hypot(end[..., 0], end[..., 1]).max() for end in (motion.x, tip))
+    highest = max(motion.x[..., 2].max(), tip[..., 2].max())
     return Room(_rounded(-lowest), _rounded(max(farthest, highest)))
 
 

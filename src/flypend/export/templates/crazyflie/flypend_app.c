@@ -516,11 +516,11 @@ PARAM_ADD(PARAM_UINT8, on, &on)
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, late, &asked.late, take)
 /** m above the ground, from which a swing-up has room: the law does not begin lower. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, height, &asked.height, take)
-/** kg, the vehicle without rod and bob. */
+/** kg, M: the vehicle, with what of the rod does not swing. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, mass, &asked.mass, take)
-/** kg, the bob. */
+/** kg, m: the bob of the simple pendulum that swings as the rod does. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, bobMass, &asked.bob_mass, take)
-/** m, from pivot to bob. */
+/** m, l: the length of that pendulum. */
 PARAM_ADD_WITH_CALLBACK(PARAM_FLOAT, rodLength, &asked.rod_length, take)
 PARAM_GROUP_STOP(flypend)
 

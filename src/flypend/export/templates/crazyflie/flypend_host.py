@@ -199,7 +199,7 @@ def main():
     """Connect, log what the app says, and fly."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("uri", help="such as radio://0/80/2M/E7E7E7E7E7")
-    for name, unit in (("mass", "kg, without rod and bob"), ("bobMass", "kg"), ("rodLength", "m")):
+    for name, unit in (("mass", "M, kg"), ("bobMass", "m, kg"), ("rodLength", "l, m")):
         parser.add_argument(f"--{name}", type=float, help=f"{unit}; default: as exported")
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--watch", action="store_true", help="send poses and print; never arm")

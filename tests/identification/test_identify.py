@@ -9,7 +9,7 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.identification.manoeuvre import rehearse, write_log
 from flypend.identification.numbers import places
-from flypend.identification.result import T_975
+from flypend.identification.result import T_975, conclude
 from tests.identification.test_rosbag import TOPICS, flight, write_bag
 
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)
@@ -90,6 +90,15 @@ def test_bands_hold_the_truth_and_say_more_than_the_guess(found):
     for name in ("rod_length", "rotor_lag", "delay"):
         low, high = found.bands[name]
         assert high - low < 0.1 * GUESS.rod_length
+
+
+def test_a_drag_is_known_no_better_than_the_mass_that_it_slows(found):
+    doubted = conclude(found._fit, GUESS, 0.1)
+    high = doubted.bands["rotor_drag"][1]
+    value = float(found._fit.search.values(found._fit.theta)["rotor_drag"][0])
+    assert high - value == pytest.approx(
+        np.hypot(conclude(found._fit, GUESS, 0.0).bands["rotor_drag"][1] - value, 0.1 * value)
+    )
 
 
 def test_gusts_are_as_strong_as_found_and_leave_the_bob_alone(found):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from flypend.errors import InputError
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.identification.log import CRAZYFLIE, NEEDED, parse_log
+from flypend.identification.log import CRAZYFLIE, NEEDED, _check, _from_crazyflie, parse_log
 
 NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
 
@@ -60,6 +60,18 @@ def test_a_crazyflie_s_log_is_the_same_in_its_names_and_units():
     theirs[0][:2] = "timestamp", "stateEstimateZ.x"
     with pytest.raises(InputError, match=r"stateEstimateZ\.x"):
         parse_log(text(theirs))
+
+
+def test_what_a_crazyflie_s_log_lacks_has_its_name_there():
+    found = {theirs: np.zeros(9) for theirs, (name, _) in CRAZYFLIE.items() if name != "gy"}
+    with pytest.raises(InputError, match=r"row 1: expected a column 'gyro\.y', beside timestamp, "):
+        _from_crazyflie(found, "log")
+
+
+def test_a_log_without_rotors_is_none():
+    columns = {name: np.array([float(row[i]) for row in table()[1:]]) for i, name in enumerate(NAMES)}
+    with pytest.raises(InputError, match=r"^log: expected commands of rotors, got none"):
+        _check(columns, 0, "log", fractions=True)
 
 
 def test_empty_cells_are_no_readings_and_commands_are_held():

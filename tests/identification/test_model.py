@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.identification.manoeuvre import _specific_force, rehearse
 from flypend.identification.model import ERROR, LOCAL, MOVING, READING, correct, local_error, moves, reads, sizes
 from flypend.identification.numbers import places
 from flypend.identification.rotors import patterns, rotor_forces, rotor_slopes, rotor_table
@@ -174,3 +175,26 @@ def test_slopes_of_forces_are_those_of_their_differences():
         assert np.median(np.abs((high.mean - low.mean) / 2e-6 - slopes[0, :-1, :, i])) < 1e-3, i
         assert np.median(np.abs((high.now - low.now) / 2e-6 - slopes[1, :, :, i])) < 1e-3, i
     assert not slopes[:, :, :, ~free].any()
+
+
+def test_the_accelerometer_of_a_rehearsal_feels_air_and_steady_wind():
+    """By differences of the velocity of the centre of mass, in the engine that flies."""
+    plant, h = fp.Plant(air="all"), 1e-5
+    engine, wind = make_engine(VEHICLE, plant), np.array([0.3, -0.2, 0.1, 0.02, 0.0, -0.01])
+    start = fp.State.random(np.random.default_rng(2)).packed()
+    forces = np.linspace(1.0, 1.6, 4)
+    engine.reset(start, forces)
+    felt = _specific_force(VEHICLE, plant)(start, forces, wind)
+    engine.step(forces, h, wind)
+    before, after = fp.State.trusted(start), fp.State.trusted(engine.packed)
+    expected = before.R.T @ ((after.x_dot - before.x_dot) / h + [0, 0, VEHICLE.gravity])
+    assert np.ravel(felt) == pytest.approx(expected, abs=0.02)
+    still = _specific_force(VEHICLE, fp.Plant())(start, forces, wind)
+    assert np.abs(felt - still).max() > 0.1
+
+
+def test_a_rehearsal_flies_in_the_wind_of_its_plant():
+    windy = fp.Plant(wind=fp.Wind(on_vehicle=(1.0, 0.0, 0.0), gust_on_vehicle=1e-9))
+    calm = fp.Plant(wind=fp.Wind(gust_on_vehicle=1e-9))
+    one, other = (rehearse(VEHICLE, VEHICLE, plant, duration=2.0).states for plant in (windy, calm))
+    assert np.abs(one - other)[:, 0].max() > 0.05

@@ -95,7 +95,7 @@ def test_a_log_that_was_not_stopped_is_refused(tmp_path):
 def test_variables_that_are_missing_are_named(tmp_path):
     path = tmp_path / "log00"
     path.write_bytes(card({"stateEstimate.x": "f"}, [(FIRST, (1.0,))]))
-    with pytest.raises(InputError, match="'y'"):
+    with pytest.raises(InputError, match=r"'stateEstimate\.y'"):
         read_log(path)
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -135,7 +136,11 @@ def parse_log(text: str, field: str = "log") -> Log:
 def _from_crazyflie(variables: dict[str, Any], field: str) -> Log:
     """Return the log in the Crazyflie's `variables` by name. Raises InputError if one is missing or wrong."""
     columns = {name: variables[theirs] * unit for theirs, (name, unit) in CRAZYFLIE.items() if theirs in variables}
-    rotors = _check_header(list(columns), field)
+    groups = {
+        theirs.partition(".")[0] for theirs in variables
+    }  # of two names for one thing, that of a group that is there
+    called = sorted(CRAZYFLIE, key=lambda theirs: theirs.partition(".")[0] in groups)
+    rotors = _check_header(list(columns), field, {CRAZYFLIE[theirs][0]: theirs for theirs in called})
     if sent := [name for name in POSE if f"locSrv.{name}" in variables]:
         # The firmware keeps the last pose until the next one comes: it was measured once.
         pose = np.stack([columns[name] for name in sent])
@@ -152,14 +157,19 @@ def _check_names(names: list[str], known: Collection[str], field: str) -> None:
             raise InputError(f"{field}, row 1", "each column once", f"{name!r} {names.count(name)} times")
 
 
-def _check_header(names: list[str], field: str) -> int:
-    """Return the number of rotors. Raises InputError for a column that is unknown, missing or there twice."""
+def _check_header(names: list[str], field: str, called: Mapping[str, str] = MappingProxyType({})) -> int:
+    """Return the number of rotors. Raises InputError for a column that is unknown, missing or there twice.
+
+    Of a log that has other names for them, `called` has those.
+    """
     rotors = next(i for i in count() if f"u{i + 1}" not in names)
     _check_names(names, [*NEEDED, *OPTIONAL, *(f"u{i + 1}" for i in range(max(rotors, 4)))], field)
     for group in (NEEDED, *(group for group in (FORCE, ROD) if set(group) & set(names)), ("u1", "u2", "u3", "u4")):
         for name in group:
             if name not in names:
-                raise InputError(f"{field}, row 1", f"a column {name!r}, beside " + ", ".join(group), "none")
+                theirs = [called.get(one, one) for one in group]
+                told = f"a column {called.get(name, name)!r}, beside {', '.join(theirs)}"
+                raise InputError(f"{field}, row 1", told, "none")
     return rotors
 
 
@@ -203,6 +213,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
     """Return the log of `columns`, its times and cells checked. Raises InputError."""
     t = columns["t"]
     _check_times(t, field)
+    if rotors == 0:
+        raise InputError(field, "commands of rotors", "none")
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)
               for name, names in (("position", POSE[:3]), ("q", POSE[3:]), ("gyro", GYRO), ("force", FORCE),
                                   ("rod", ROD))}  # fmt: skip

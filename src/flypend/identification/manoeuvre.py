@@ -19,6 +19,7 @@ from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rates_under
+from flypend.plants.measurement import wind_numbers
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Plant, Wind
 from flypend.plants.schedule import within_period
@@ -88,9 +89,10 @@ def rehearse(
     hover = np.full(n, vehicle.weight / n)
     engine.reset(State(y=(0, 0, -1)).packed(), hover)
     where, biases = step_places(duration, rng), bias * rng.normal(size=6) * np.repeat([1, 10], 3)
-    segments, felt = within_period(plant.delay, h), _specific_force(true)
+    segments, felt = within_period(plant.delay, h), _specific_force(true, plant)
     asked = [hover] * (2 + max(age for age, _ in segments))
     wind, gust, rows, states = plant.wind, np.zeros(6), [], []
+    decay, on_vehicle, on_bob, *steady = wind_numbers(wind, h)[:9]
     behind, turned = round(latency / h), np.zeros(3)
     attitude = LAG_SHARE / max(true.rotor_lag, LAG_SHARE / ATTITUDE)
     for k in range(int(duration * RATE)):
@@ -103,7 +105,7 @@ def rehearse(
         R = seen.R @ rotation_from_vector(noise.attitude * rng.normal(size=3))
         y = unit(seen.y + noise.y * rng.normal(size=3))
         gyro = s.omega + biases[:3] + noise.omega * rng.normal(size=3)
-        force = felt(packed, engine.rotors, gust) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
+        force = felt(packed, engine.rotors, gust + steady) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
         speed = seen.x_dot + noise.x_dot * rng.normal(size=3)
         apart = x - where[int(k * h / STEP_TIME)]
         command, error = _feedback(k * h, apart, speed, R, gyro, y, turned, vehicle, attitude)
@@ -111,12 +113,10 @@ def rehearse(
         rows.append([k * h, *x, *quat_xyzw_from_rotation(R)[[3, 0, 1, 2]], *gyro, *force, *y, *command])
         asked = [command, *asked[:-1]]
         if wind is not None:
-            decay = np.exp(-h / wind.gust_time)
-            size = np.repeat([wind.gust_on_vehicle, wind.gust_on_bob], 3)
-            gust = decay * gust + np.sqrt(1 - decay**2) * size * rng.normal(size=6)
+            gust = decay * gust + np.repeat([on_vehicle, on_bob], 3) * rng.normal(size=6)
         for age, held in segments:
             for _ in range(2):
-                engine.step(asked[age], held / 2, gust)
+                engine.step(asked[age], held / 2, gust + steady)
     names = ("t", *POSE, *GYRO, *FORCE, *ROD, *(f"u{i + 1}" for i in range(n)))
     return Rehearsal(dict(zip(names, np.array(rows).T, strict=True)), np.array(states))
 
@@ -130,10 +130,10 @@ def write_log(path: str | Path, columns: dict[str, Any]) -> None:
         target.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def _specific_force(true: Vehicle) -> Callable[..., Any]:
+def _specific_force(true: Vehicle, plant: Plant) -> Callable[..., Any]:
     """Return (state (24,), rotor forces (n,), gusts (6,)) → specific force (3,) at the centre of mass, body, m/s²."""
     packed, rotors, gusts = ca.SX.sym("s", SIZE), ca.SX.sym("f", len(true.rotor_spins)), ca.SX.sym("g", 6)
-    rates = State.symbolic(rates_under(packed, rotors, true.mixing() @ rotors, gusts, true, Plant()))
+    rates = State.symbolic(rates_under(packed, rotors, true.mixing() @ rotors, gusts, true, plant))
     felt = specific_force(State.symbolic(packed), rates, true)
     return as_numpy(ca.Function("felt", [packed, rotors, gusts], [ca.densify(felt)]))
 

@@ -119,7 +119,9 @@ def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
     spans: dict[str, Any] = {}
     for name, place in at.items():
         half = T_975 * errors[place]
-        spans[name] = np.hypot(half, mass_error) if name in WITH_MASS and name != "rotor_drag" else half
+        # Of logarithms, but for the drag.
+        more = mass_error * (values[name] if name == "rotor_drag" else 1.0)
+        spans[name] = np.hypot(half, more) if name in WITH_MASS else half
     bands: dict[str, Band] = {"mass": (guess.mass * (1 - mass_error), guess.mass * (1 + mass_error))}
     for name in ("rod_length", "bob_mass", "inertia", "drag_ratio", "lag", "spin_up"):
         bands[FIELDS.get(name, name)] = _band(values[name] * np.exp(-spans[name]), values[name] * np.exp(spans[name]))

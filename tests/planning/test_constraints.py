@@ -11,6 +11,7 @@ from flypend.planning.constraints import Keywords, Motion, gather
 from flypend.planning.dynamics import Stage
 from flypend.planning.inequalities import inequalities
 from flypend.planning.problem import request
+from flypend.settings.expressions import Expression
 
 HEHN = fp.vehicle("hehn2011")
 LEANING = fp.State(y=(np.sin(0.3), 0, np.cos(0.3)))
@@ -140,6 +141,20 @@ def test_a_constraint_of_ones_own_sees_si_units(name):
     wanted = keep(Motion(start.x, start.x_dot, start.R, start.omega, start.y, start.y_dot, forces))
     wanted = np.concatenate([np.array(value).ravel() for value in wanted])
     np.testing.assert_allclose(np.array(given).ravel()[-len(wanted) :], wanted, rtol=1e-12)
+
+
+def test_what_is_kept_may_be_of_more_rotors_than_four():
+    arms = 0.2 * np.array([(np.cos(k * np.pi / 3), np.sin(k * np.pi / 3), 0) for k in range(6)])
+    hexarotor = fp.vehicle("hehn2011").replace(rotor_positions=arms, rotor_spins=[1, -1] * 3)
+    start, kept = fp.State(y=(0, 0, -1)), fp.Constraints(keep=lambda m: m.rotor_forces[5] + 1)
+    assert request(hexarotor, start, "excursion", (0, 0, 0), np.ones(6), kept).rotors == 6
+    with pytest.raises(fp.InputError, match=r"^keep: "):
+        request(fp.vehicle("hehn2011"), start, "excursion", (0, 0, 0), np.ones(4), kept)
+    with pytest.raises(fp.InputError, match=r"^keep: "):
+        fp.Constraints(keep=lambda m: m.rotor_forces[20])
+    Expression("rotor_forces[5] > 0.1", "--keep", compares=True)
+    with pytest.raises(fp.InputError, match=r"^--keep: "):
+        Expression("rotor_forces[20] > 0.1", "--keep", compares=True)
 
 
 def test_the_same_constraint_written_again_has_the_same_programs():

@@ -504,6 +504,7 @@ def test_a_table_gives_gains_and_reference_of_the_law_it_falls_back_on():
     ("call", "line"),
     [
         (lambda: fp.nmpc(computing=0), "computing: expected a finite number > 0 s"),
+        (lambda: fp.nmpc(computing="a number of seconds"), "computing: expected 'measured', or a number of seconds"),
         (lambda: fp.nmpc(clearance=-1), "clearance: expected a finite number >= 0 m"),
         (lambda: fp.nmpc(waypoints=[(0, 0, 1)]), "waypoints: expected nothing: a plan that begins in flight"),
         (lambda: fp.nmpc(path=fp.laws.references.circle()), "path: expected nothing: the reference is the path"),

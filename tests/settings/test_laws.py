@@ -144,6 +144,7 @@ def test_other_processes_are_sent_a_law_of_a_file(here):
         ),
         ({"function": ["x"]}, "law.function: expected file.py:function, module:function or a file .onnx or .npz, got "),
         ({"function": "laws/mine.py:balance", "gains": 3}, "law.gains: expected a table of gains, got 3"),
+        ({"name": "detuned", "gains": 3}, "law.gains: expected a table of gains, got 3"),
         ({"function": "laws/mine.py:balance", "gains": {"lif": 1}}, "law.gains.lif: expected one of lift, mode, got"),
         ({"function": "laws/mine.py:balance", "gains": {"lift": "x"}}, "law.gains.lift: expected a finite number, got"),
         ({"function": "laws/mine.py:balance", "gains": {"mode": 1}}, "law.gains.mode: expected a word, got 1"),

@@ -19,7 +19,7 @@ from flypend.laws import law_from_dict, law_names
 from flypend.model.shipped import vehicle_names
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
-from flypend.settings.runfile import KEYS, plant_of, run_file
+from flypend.settings.runfile import KEYS, check_plain, plant_of, run_file
 
 SWING_UP = str(Path(fp.__file__).parent / "examples" / "swing-up.toml")
 OWN = """
@@ -178,6 +178,19 @@ def test_overrides_change_a_file_and_leave_the_rest(tmp_path):
     np.testing.assert_array_equal(chosen.starts.x, [1, 2, 3])
     np.testing.assert_array_equal(chosen.starts.y, [0.6, 0, 0.8])
     assert flight(path, ["vehicle=hehn2011", "vehicle.mass=0.7"]).vehicle.inertia[0, 0] == 3.2e-3
+
+
+def test_lists_of_words_and_tables_are_read_where_a_setting_has_them():
+    table = tomllib.loads(
+        'vehicle = "hehn2011"\nduration = 2.0\nstart = { x = [-1.5, 0, 0], y = [0, 0, 1] }\n'
+        'plant = { sensors = { like = "mocap", adjustable = ["gyro_bias"] } }\n'
+        '[law]\nname = "plan"\n[[law.window]]\ncentre = [0, 0.25, 0.3]\nwidth = 0.5\nheight = 1.0\n'
+    )
+    for name, value in table.items():
+        check_plain(name, value)
+    for name, value in {"start.x": ["far"], "plant.sensors.adjustable": [{}], "law.gains": [{}]}.items():
+        with pytest.raises(fp.InputError, match=rf"^{name}: expected a list of numbers"):
+            check_plain(name, value)
 
 
 @pytest.mark.parametrize(

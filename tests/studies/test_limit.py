@@ -21,6 +21,13 @@ def test_less_time_takes_more_room():
         assert plan.duration == pytest.approx(allowed, rel=0.01)  # whole stages of 20 ms
 
 
+def test_counts_are_whole():
+    with pytest.raises(fp.InputError, match=r"^count: expected an integer >= 2, got 2\.5"):
+        front(HEHN, HANGING, 2.5)
+    with pytest.raises(fp.InputError, match=r"^cells: expected an integer >= 2, got 2\.5"):
+        strays(HEHN, [fp.laws.inverted()], 2.5)
+
+
 def test_where_nothing_can_be_planned_the_front_is_one_failure():
     box = ((-0.05, -0.05, -0.7), (0.05, 0.05, 0.7))
     found = front(HEHN, HANGING, 3, time_limit=2.0, box=box)

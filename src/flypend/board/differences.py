@@ -42,7 +42,7 @@ class Differences:
         return ca.Function("estimate_begun", [rotors, state, self._params], [memory])
 
     def correct(self) -> ca.Function:
-        """Return (memory, readings, params) → memory, state (24,), and no force (6,)."""
+        """Return (memory, readings, params) → memory, state (24,), and no force (8,)."""
         record = readings_record(self.sensors)
         memory, readings = ca.SX.sym("memory", RECORD.length), ca.SX.sym("readings", record.length)
         kept, read = RECORD.split(memory), record.split(readings)

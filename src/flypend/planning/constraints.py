@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, NamedTuple, TypedDict
 
 import casadi as ca
@@ -144,7 +145,7 @@ class Constraints:
         check_reference(self.path, "path")
         for name in ("keep", "cost"):
             if name in given:
-                own_function(given[name], 4, name)
+                try_rotors(partial(own_function, given[name], name=name))
         points = np.zeros((0, 3)) if self.waypoints is None else errors.array("waypoints", self.waypoints, (None, 3))
         walls, windows = self._walls(), _several(self.window)
         found = {"given": given, "walls": walls, "windows": windows, "points": points, "clearance": apart}
@@ -176,6 +177,22 @@ class Constraints:
         if walls[0, 2] >= walls[1, 2]:
             raise InputError("floor, ceiling", "a lowest corner below the highest", walls.tolist())
         return None if np.all(np.isinf(walls)) else walls
+
+
+def try_rotors(attempt: Callable[[int], Any]) -> None:
+    """Call `attempt` with numbers of rotors until one is accepted, since the vehicle's is not known yet.
+
+    Raises the InputError of four if none is.
+    """
+    refusals = []
+    for rotors in range(4, 13):
+        try:
+            attempt(rotors)
+        except InputError as error:
+            refusals.append(error)
+        else:
+            return
+    raise refusals[0]
 
 
 def own_function(own: Own, rotors: int, name: str) -> ca.Function:

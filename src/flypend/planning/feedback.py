@@ -124,7 +124,7 @@ def of_deviation(units: Units, n: int) -> Array:
 def deviation(rotors: int) -> ca.Function:
     """Return (nominal, state) → deviation (18 + n,), SI units, of states with the forces of `rotors` n, (24 + n,).
 
-    It is `coordinates.local` with rod and rate as vectors.
+    It is `dynamics.local` with rod and rate as vectors.
     """
     nominal, state = ca.SX.sym("nominal", SIZE + rotors), ca.SX.sym("state", SIZE + rotors)
     s, o = State.symbolic(nominal[:SIZE]), State.symbolic(state[:SIZE])

@@ -121,7 +121,8 @@ def nmpc(
     """
     delay = Computer(latency=latency).latency
     if isinstance(computing, str):
-        errors.one_of("computing", computing, ("measured", "a number of seconds"))
+        if computing != "measured":
+            raise InputError("computing", "'measured', or a number of seconds", repr(computing))
     else:
         errors.number("computing", computing, above=0, unit="s")
     kept = gather("nmpc", constraints, keywords)

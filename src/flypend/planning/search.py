@@ -317,19 +317,18 @@ def together(
     deadline: float,
     most: int = MOST_ITERATIONS,
     rounds: Mapping[int, int] | None = None,
-    first: float = SOFT_FIRST,
     kept: Request | None = None,
 ) -> Found:
     """Solve from all styles of guesses, until the best is steady or the `deadline` is over.
 
     It is of the processor time of this thread, s. There are at `most` so many iterations. `rounds` are as in `Race`; by
     default no guess is given up where costs are soft at first, since the dearest may be the one that keeps away.
-    `first` is the `soft` of `Watch`, and `kept` as in `Race`.
+    `kept` is as in `Race`.
     """
     jobs = [Job(asked, style) for style in range(WIDTH)]
     given_up = ({} if asked.structure.soft else ROUNDS) if rounds is None else rounds
     race = Race(_alone(asked), *make_guesses(jobs, horizon), given_up, kept)
-    return _raced(race, Watch(jobs, range(WIDTH), most, first), asked.structure.soft, deadline)
+    return _raced(race, Watch(jobs, range(WIDTH), most), asked.structure.soft, deadline)
 
 
 class Relay:

@@ -17,7 +17,7 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import cross, dot
-from flypend.planning.constraints import Motion
+from flypend.planning.constraints import Motion, try_rotors
 
 EXPECTED = "an expression such as 0.6 - x[2], file.py:function or module:function"
 SYNTAX = "numbers, x, x_dot, R, omega, y, y_dot, rotor_forces, their entries, [vectors], + - * / **, < > and functions"
@@ -56,7 +56,7 @@ class Expression:
 
     def __post_init__(self) -> None:
         x, y, omega = (ca.SX.sym(name, 3) for name in ("x", "y", "omega"))
-        self(Motion(x, x, ca.SX.sym("R", 3, 3), omega, y, y, ca.SX.sym("f", 4)))
+        try_rotors(lambda rotors: self(Motion(x, x, ca.SX.sym("R", 3, 3), omega, y, y, ca.SX.sym("f", rotors))))
 
     def __call__(self, motion: Motion) -> list[Any]:
         """Return the values for a `motion`."""

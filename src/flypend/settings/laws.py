@@ -80,6 +80,8 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
         }
         rest = {name: entry for name, entry in value.items() if name not in own}
         return nmpc(otherwise=law_from_dict({**rest, "name": "inverted"}, key), **own)
+    if not isinstance(value.get("gains", {}), Mapping):
+        raise InputError(f"{key}.gains", "a table of gains", repr(value["gains"]))
     if value.get("name") == "detuned":
         named = law_from_dict({**value, "name": "inverted", "gains": {**DETUNED, **value.get("gains", {})}}, key)
         return replace(named, name="detuned")
@@ -89,8 +91,6 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     where, gains = value["function"], value.get("gains", {})
     if not isinstance(where, str) or not _is_place(where):
         raise InputError(f"{key}.function", PLACE, repr(where))
-    if not isinstance(gains, Mapping):
-        raise InputError(f"{key}.gains", "a table of gains", repr(gains))
     e3 = one_of(f"{key}.e3", value["e3"], ("up", "down")) if "e3" in value else None
     return _own(where, folder, f"{key}.function", e3).with_gains(gains, f"{key}.gains")
 

@@ -32,7 +32,8 @@ STUDY_KEYS = frozenset(
      "precision")
 )  # fmt: skip
 # Settings that are lists of words; all other lists are of numbers.
-WORDS = ("plant.air",)
+WORDS = ("plant.air", "plant.sensors.adjustable")
+TABLES = ("law.window",)
 _TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
 
 
@@ -95,7 +96,7 @@ def _read(what: str) -> dict[str, Any]:
 
 
 def check_plain(key: str, value: Any) -> None:
-    """Reject TOML values that no setting accepts: dates, integers beyond 64 bits, lists of anything but numbers."""
+    """Reject TOML values that no setting accepts: dates, integers beyond 64 bits, lists of what they are not."""
     if not key.isprintable():
         raise InputError("run", "printable keys", repr(key))
     if isinstance(value, dict):
@@ -103,7 +104,8 @@ def check_plain(key: str, value: Any) -> None:
             check_plain(f"{key}.{name}", entry)
     elif isinstance(value, list):
         for entry in value:
-            if isinstance(entry, bool | dict) or (isinstance(entry, str) and key not in WORDS):
+            known = (isinstance(entry, str) and key in WORDS) or (isinstance(entry, dict) and key in TABLES)
+            if isinstance(entry, bool | dict | str) and not known:
                 raise InputError(key, "a list of numbers", repr(value))
             check_plain(key, entry)
     elif not isinstance(value, bool | int | float | str):

@@ -55,7 +55,7 @@ def front(
     Each plan takes `asked`, further arguments of `plan`, within a `time_limit` (s). If even the shortest plan fails,
     it stands alone. Raises InputError as `plan` does.
     """
-    errors.number("count", count, at_least=2)
+    errors.integer("count", count, 2)
     shortest = plan(vehicle, start, "time", time_limit=time_limit, **asked)
     progress(1, count + 1)
     if not shortest:
@@ -116,7 +116,7 @@ def strays(
     The directions are the centres of the `cells` × `cells` squares of each hemisphere's disc that lie in it. `tell` is
     called with what is under way, and how much of it is done. Raises InputError if an argument is out of range.
     """
-    count = int(errors.number("cells", cells, at_least=2))
+    count = errors.integer("cells", cells, 2)
     place, y = _directions(count)
     starts = State(y=y)
     plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=partial(tell, "planning"))

@@ -78,9 +78,9 @@ def params_record(vehicle: Vehicle) -> Record:
         "params",
         "The vehicle.",
         (
-            Field("mass", 0, "M of the quadrotor without the pendulum, kg"),
-            Field("bob_mass", 0, "m, kg"),
-            Field("rod_length", 0, "l, m"),
+            Field("mass", 0, "M, of the vehicle without the pendulum that swings as its rod does, kg"),
+            Field("bob_mass", 0, "m, of the bob of that pendulum, kg"),
+            Field("rod_length", 0, "l, of that pendulum, m"),
             Field("gravity", 0, "g, m/s^2"),
             *inertia,
             Field("rotor_least", 0, "least force of one rotor, N"),

@@ -441,7 +441,7 @@ def watched(one: Mutation | None, tests: Tests, limit: float, seconds: dict[str,
             code = pytest.main([*options, *files], plugins=[watch])
             took |= watch.took
             if code in (pytest.ExitCode.INTERNAL_ERROR, pytest.ExitCode.USAGE_ERROR):  # conftest.py cannot be imported
-                watch.failed.append(files[0])
+                watch.failed.append(os.path.relpath(files[0], ROOT))
             if watch.failed or processor() > until:
                 return {"failed": watch.failed, "took": took}
             if not watch.rest:

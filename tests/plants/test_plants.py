@@ -96,6 +96,7 @@ def final(run):
         (lambda: Plant(engine="mujaco"), "plant.engine: expected one of equations, mujoco, got 'mujaco'"),
         (lambda: Plant(interface="rate"), "plant.interface: expected one of wrench, rates, got 'rate'"),
         (lambda: Plant(limits="no"), "plant.limits: expected true or false, got 'no'"),
+        (lambda: fp.Ideal(lag="no"), "plant.lag: expected true or false, got 'no'"),
         (lambda: Plant(lag=-0.01), "plant.lag: expected a finite number >= 0 s, got -0.01"),
         (lambda: Plant(rate=0), "plant.rate: expected a finite number > 0 Hz, got 0"),
         (lambda: Plant(delay=np.nan), "plant.delay: expected a finite number >= 0 s, got nan"),
@@ -660,6 +661,13 @@ def test_a_lag_too_short_for_mujoco_is_none():
 def test_what_would_take_for_ever_is_refused(fields, name):
     with pytest.raises(fp.InputError, match=rf"^plant\.{name}: "):
         Plant(**fields)
+
+
+def test_forces_at_the_start_are_of_all_rotors():
+    vehicle = fp.vehicle("hehn2011").replace(rotor_lag=0.02)
+    for rotors in ([1.0, 1.0, 1.0], np.ones((2, 4))):
+        with pytest.raises(fp.InputError, match=r"^plant\.rotors: "):
+            fp.Ideal(lag=True, rotors=rotors).beginning(vehicle, 1, "up")
 
 
 def test_an_ideal_plant_with_forces_of_each_run_is_hashable_too():

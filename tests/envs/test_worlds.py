@@ -234,6 +234,21 @@ def test_the_reward_is_its_formula():
     assert np.allclose(rewards, (1 + s[:, 20]) / 2 * kept - 0.02 * change, atol=1e-6)  # float32
 
 
+def test_tracking_is_paid_for_being_where_the_goal_is():
+    worlds = VectorWorlds("track", 50)
+    before = worlds.reset(seed=5)[0].astype(float)
+    action = some_actions(1, 50)[0]
+    seen, rewards, terminated, *_ = worlds.step(action)
+    near = lambda v, scale: 1 / (1 + (v**2).sum(1) / scale**2)  # noqa: E731
+    s = seen.astype(float)
+    kept = 0.4 + 0.3 * near(s[:, :3], 0.5) + 0.1 * near(s[:, 3:6], 1)
+    kept += 0.1 * near(s[:, 21:24], 3) + 0.1 * near(s[:, 15:18], 5)
+    paid = (1 + s[:, 20]) / 2 * kept - 0.02 * ((action - before[:, 28:32]) ** 2).sum(1)
+    assert not terminated.any()
+    assert np.allclose(rewards, paid * (0.5 + 0.5 * near(s[:, :3], 0.3)), atol=1e-5)  # float32
+    assert np.ptp(near(s[:, :3], 0.2)) > 0.1  # worlds begin up to 0.1 m from the goal
+
+
 def test_the_shaped_swing_up_begins_at_any_angle_and_pays_for_standing():
     worlds = gymnasium.make_vec("flypend/SwingUpShaped-v0", 4000, vectorization_mode="vector_entry_point").unwrapped
     plain = VectorWorlds("swing_up", 4000)

@@ -32,11 +32,12 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-# The slowest test takes two minutes. One that takes ten hangs: all stacks are shown, and its worker ends with it, since
-# what hangs may be a child process for which the end of the test waits.
+# Three workers on two cores, since tests of pages wait for real time. The slowest test takes four minutes. One that takes
+# twenty hangs: all stacks are shown, and its worker ends with it, since what hangs may be a child process for which the
+# end of the test waits.
 test: lint test-tools
-	$(BIN)/pytest -n 2 --dist worksteal --durations=20 --timeout 600 --timeout-method thread \
-	    -o faulthandler_timeout=590
+	$(BIN)/pytest -n 3 --dist worksteal --durations=20 --timeout 1200 --timeout-method thread \
+	    -o faulthandler_timeout=1190
 
 # Plants 200 mutations in the source, and reports those that no test catches; parts of it: make mutants WHERE=board
 mutants: setup test-tools

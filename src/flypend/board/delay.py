@@ -30,7 +30,7 @@ from flypend.laws.inverted_gains import angular_authority
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
 from flypend.plants.cascade import cascade_step
-from flypend.plants.lag import Ramp, hold, step_timing
+from flypend.plants.lag import Ramp, hold, join_ramps, step_timing
 
 # Time over which the past is forgotten, s.
 FORGETTING = 0.5
@@ -166,10 +166,7 @@ class DelayEstimator:
         if e == 0:
             return past
         forces, _ = hold(rotors, command, step_timing(self._believed.lag, e))
-        last, whole = forces.mixed(self._believed.vehicle.mixing()), delay + e
-        # First moments about the middle: that of each part about its own, and that of its mean.
-        first = delay**2 / 12 * past.change + e**2 / 12 * last.change + delay * e / 2 * (last.mean - past.mean)
-        return Ramp((delay * past.mean + e * last.mean) / whole, 12 / whole**2 * first)
+        return join_ramps(past, forces.mixed(self._believed.vehicle.mixing()), delay, e)
 
     def acting(self) -> ca.Function:
         """Return (memory, rotors (n,), params) → the forces (n,) that act by then, N, after a step with that memory.

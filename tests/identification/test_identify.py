@@ -9,7 +9,7 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.identification.manoeuvre import rehearse, write_log
 from flypend.identification.numbers import places
-from flypend.identification.result import T_975, conclude
+from flypend.identification.result import T_975, _machine, conclude
 from tests.identification.test_rosbag import TOPICS, flight, write_bag
 
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)
@@ -176,6 +176,15 @@ def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):
     found = fp.identify(tmp_path / "hover.csv", GUESS)
     assert {"drag_ratio", "sag"} <= set(found.untold)
     assert "yaw doublets" in found.report()
+
+
+@pytest.mark.parametrize("length", [0.7586374133985795, 0.35709547801928937, 0.6])
+def test_a_bob_at_the_end_of_the_guess_stays_there(found, length):
+    """With the first two lengths 0.7 (length/0.7) is rounded to less, which a vehicle refuses as the rod's end."""
+    guess = GUESS.replace(rod_length=0.7, rod_end=0.7)
+    values = found._fit.search.values(found._fit.theta) | {"rod_length": np.array([length])}
+    new = _machine(guess, values, found.bands)
+    assert new.rod_end == new.rod_length == pytest.approx(length, rel=1e-15)
 
 
 @pytest.mark.parametrize(

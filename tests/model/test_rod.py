@@ -6,7 +6,7 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.model import kinetic_energy, potential_energy
-from flypend.model.rod import rod_with_bob, uniform_rod
+from flypend.model.rod import rod_with_bob, stretched, uniform_rod
 
 
 def summed(mass, length, bob_mass, points=200_000):
@@ -28,6 +28,13 @@ def test_a_rod_is_the_sum_of_its_slices(bob):
 
 def test_a_bob_on_a_massless_rod_is_the_point_mass():
     assert rod_with_bob(0.0, 0.7, 0.1) == {"bob_mass": 0.1, "rod_length": 0.7, "rod_inertia": 0.0, "rod_end": 0.7}
+
+
+@pytest.mark.parametrize(("heavier", "longer"), [(1.0, 1.3), (0.6, 1.0), (1.7, 0.8)])
+def test_a_stretched_rod_is_made_of_heavier_and_longer_parts(heavier, longer):
+    vehicle = fp.vehicle("hehn2011").replace(**rod_with_bob(0.05, 1.2, 0.02))
+    made = rod_with_bob(heavier * 0.05, longer * 1.2, heavier * 0.02)
+    assert stretched(vehicle, heavier, longer) == pytest.approx(made, rel=1e-14)
 
 
 def test_the_letters_are_those_of_the_equivalent_bob():

@@ -14,6 +14,7 @@ from flypend.identification.model import CHANNELS, PLACES
 from flypend.identification.numbers import FIELDS, places
 from flypend.identification.rotors import patterns
 from flypend.model import Vehicle
+from flypend.model.rod import stretched
 from flypend.plants.plant import Plant
 
 # Student's t with as many degrees of freedom as scores of segments, 30 in a minute, at 97.5 %.
@@ -153,15 +154,11 @@ def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> 
     a, b, c = values["inertia"]
     flat = min(1.0, (a + b) / c)  # moments keep the triangle inequality; what is told is their quotient with the torque
     np.fill_diagonal(inertia, [a, b, flat * c])
-    longer = number["rod_length"] / guess.rod_length
-    changes: dict[str, Any] = {
-        "rod_length": number["rod_length"], "bob_mass": number["bob_mass"], "inertia": inertia,
-        "rod_inertia": guess.rod_inertia * number["bob_mass"] / guess.bob_mass * longer**2,
-        "drag_ratio": flat * number["drag_ratio"], "rotor_lag": number["lag"],
+    rod = stretched(guess, number["bob_mass"] / guess.bob_mass, number["rod_length"] / guess.rod_length)
+    changes: dict[str, Any] = rod | {
+        "inertia": inertia, "drag_ratio": flat * number["drag_ratio"], "rotor_lag": number["lag"],
         "thrust_scale": float(np.exp(number["scale"])), "bands": bands,
     }  # fmt: skip
-    if guess.rod_end is not None:
-        changes["rod_end"] = guess.rod_end * longer
     low, high = (np.array(end) for end in bands["pivot_offset"])
     if np.any((guess.pivot_offset < low) | (guess.pivot_offset > high)):
         changes["pivot_offset"] = values["pivot_offset"]

@@ -35,6 +35,21 @@ def rod_with_bob(mass: float, length: float, bob_mass: float) -> dict[str, float
     }
 
 
+def rod_inertia_factor(heavier: float, longer: float) -> float:
+    """Return the factor of moments of inertia of a rod whose mass and lengths change by these factors."""
+    return heavier * longer**2
+
+
+def stretched(vehicle: Any, heavier: float, longer: float) -> dict[str, Any]:
+    """Return the fields of the rod of `vehicle` with mass and lengths times these factors; it keeps its shape."""
+    return {
+        "bob_mass": heavier * vehicle.bob_mass,
+        "rod_length": longer * vehicle.rod_length,
+        "rod_inertia": rod_inertia_factor(heavier, longer) * vehicle.rod_inertia,
+        "rod_end": None if vehicle.rod_end is None else longer * vehicle.rod_end,
+    }
+
+
 def is_point(vehicle: Any) -> bool:
     """Whether the rod of `vehicle`, whose numbers may be symbols, is a point mass."""
     return vehicle.M is vehicle.mass or vehicle.rod_inertia == 0

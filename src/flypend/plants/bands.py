@@ -9,6 +9,7 @@ import numpy as np
 
 from flypend.errors import InputError
 from flypend.model import Vehicle
+from flypend.model.rod import rod_inertia_factor
 from flypend.plants.plant import Sampled
 
 LEAST = 1e-3  # factor of a number whose band begins at zero
@@ -32,7 +33,7 @@ def world_of(vehicle: Vehicle, plant: Sampled, found: Mapping[str, Any]) -> Samp
     factors = {name: found[name] / value for name, value in written.items() if name in found and value > 0}
     if "inertia" in found:
         factors["inertia"] = float(np.exp(np.mean(np.log(found["inertia"] / np.diag(vehicle.inertia)))))
-    factors["rod_inertia"] = factors.get("bob_mass", 1.0) * factors.get("rod_length", 1.0) ** 2
+    factors["rod_inertia"] = rod_inertia_factor(factors.get("bob_mass", 1.0), factors.get("rod_length", 1.0))
     mismatch = {
         name: float(max(LEAST, plant.mismatch.get(name, 1.0) * factors.get(name, 1.0)))
         for name in {**plant.mismatch, **factors}

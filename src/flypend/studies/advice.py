@@ -20,6 +20,7 @@ from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import task_starts
 from flypend.laws import inverted
 from flypend.model import Vehicle
+from flypend.model.rod import stretched
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
 from flypend.studies.margins import LEAST_RATE
@@ -184,10 +185,7 @@ def changed(vehicle: Vehicle, factors: Mapping[str, float]) -> Vehicle:
     if "rotor_limits" in factors:
         least, most = vehicle.rotor_limits
         new["rotor_limits"] = (least, most * factors["rotor_limits"])
-    longer = factors.get("rod_length", 1.0)
-    new["rod_inertia"] = vehicle.rod_inertia * longer**2 * factors.get("bob_mass", 1.0)
-    new["rod_end"] = None if vehicle.rod_end is None else vehicle.rod_end * longer
-    return vehicle.replace(**new)
+    return vehicle.replace(**new | stretched(vehicle, factors.get("bob_mass", 1.0), factors.get("rod_length", 1.0)))
 
 
 def _flown(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed: int) -> Change:

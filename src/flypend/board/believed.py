@@ -9,7 +9,7 @@ import casadi as ca
 
 from flypend.geometry import Numbers
 from flypend.model import Vehicle
-from flypend.model.state import E3Direction
+from flypend.model.altered import Altered
 
 
 @dataclass(frozen=True)
@@ -42,18 +42,5 @@ class Believed:
     def limited(cls, vehicle: Vehicle) -> Believed:
         """The nominal `vehicle` with its parameters as constants, and symbols for least and largest rotor force, N."""
         limits = ca.SX.sym("limits", 2)
-        return cls(_Limited(vehicle, limits), len(vehicle.rotor_spins), vehicle.rotor_lag, limits)
-
-
-class _Limited:
-    """A `vehicle` whose rotor limits are the symbols `limits` (2, 1), which its own class would refuse."""
-
-    def __init__(self, vehicle: Vehicle, limits: Numbers) -> None:
-        self._vehicle, self.rotor_limits = vehicle, (limits[0], limits[1])
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._vehicle, name)
-
-    def in_frame(self, e3: E3Direction) -> _Limited:
-        """As `Vehicle.in_frame`."""
-        return _Limited(self._vehicle.in_frame(e3), self.rotor_limits)
+        limited = Altered(vehicle, rotor_limits=(limits[0], limits[1]))
+        return cls(limited, len(vehicle.rotor_spins), vehicle.rotor_lag, limits)

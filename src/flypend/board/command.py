@@ -14,8 +14,9 @@ from flypend.geometry import Numbers, Scalar, apply
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
+from flypend.model.altered import Altered
 from flypend.model.dynamics import gyroscopic_moment
-from flypend.model.state import SIZE, E3Direction
+from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
 from flypend.plants.lag import largest_lead
 from flypend.plants.loop import Loop
@@ -83,7 +84,7 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     told = OUTSIDE.split(outside)
     vehicle = believed.vehicle
     if loop.symbolic.uses_forces:
-        vehicle = _Measured(vehicle, found_length(vehicle, outside))
+        vehicle = Altered(vehicle, l=found_length(vehicle, outside))
     wrench = steer(t, packed, told["forces"], path, gains, vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
     wrench = rescale(ca.substitute(wrench, t, t + horizon), outside)
@@ -112,20 +113,6 @@ def rescale(wrench: Numbers, outside: Numbers) -> Numbers:
     stays where it is, it would make the loop of the thrust axis weaker by as much: the law would turn against it.
     """
     return ca.vertcat(wrench[0] / (1 + OUTSIDE.split(outside)["scale"]), wrench[1:])
-
-
-class _Measured:
-    """A `vehicle` with another length of the rod, m, as found in flight."""
-
-    def __init__(self, vehicle: Any, length: Scalar) -> None:
-        self._vehicle, self.l = vehicle, length
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._vehicle, name)
-
-    def in_frame(self, e3: E3Direction) -> _Measured:
-        """As `Vehicle.in_frame`."""
-        return _Measured(self._vehicle.in_frame(e3), self.l)
 
 
 def finish(loop: Loop, believed: Believed) -> ca.Function:

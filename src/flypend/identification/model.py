@@ -14,8 +14,10 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.numeric import as_numpy
-from flypend.geometry import E3, Numbers, Vector, hat, is_symbolic, tangent_part, unit, vee
+from flypend.geometry import E3, Numbers, Vector, hat, tangent_part, unit, vee
 from flypend.model import State, Vehicle
+from flypend.model.altered import Altered
+from flypend.model.dynamics import swing_around
 from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
 from flypend.plants.equations import rates_under, runge_kutta_step
@@ -45,25 +47,19 @@ def split(table: dict[str, int], values: Any) -> dict[str, Any]:
 
 
 def machine(vehicle: Vehicle, moving: Numbers) -> Any:
-    """Return `vehicle` with the symbols `moving` in place of its numbers, with what equations ask a vehicle for.
+    """Return `vehicle` with the symbols `moving` in place of its numbers, without friction and spin of the rod.
 
     Its rod is the equivalent point bob; see `Vehicle`.
     """
     v = split(MOVING, moving)
     share = vehicle.m / vehicle.bob_mass
     M = vehicle.mass + (1 - share) * v["bob_mass"]
-    x, y, _ = vehicle.rotor_positions.T
-    rows = np.array([np.ones_like(x), y, -x])
     principal = ca.diag(v["inertia"]) + ca.DM(vehicle.inertia - np.diag(np.diag(vehicle.inertia)))
-    made = SimpleNamespace(
-        M=M, mass=M, m=share * v["bob_mass"], l=v["rod_length"] / share, g=vehicle.gravity, I=principal,
-        I_inv=ca.inv_minor(principal), rotor_positions=vehicle.rotor_positions, pivot_offset=v["pivot_offset"],
-        mixing=lambda: ca.vertcat(ca.DM(rows), v["drag_ratio"] * ca.DM(vehicle.rotor_spins).T), rubs=False,
-        rod_spin=0.0, rod_spin_inertia=0.0, wind=v["wind"],
-        air=SimpleNamespace(rotor_drag=v["rotor_drag"], known=lambda: ("rotor_drag",)),
+    return Altered(
+        vehicle, M=M, mass=M, m=share * v["bob_mass"], l=v["rod_length"] / share, I=principal,
+        I_inv=ca.inv_minor(principal), pivot_offset=v["pivot_offset"], drag_ratio=v["drag_ratio"], wind=v["wind"],
+        rubs=False, rod_spin=0.0, air=SimpleNamespace(rotor_drag=v["rotor_drag"], known=lambda: ("rotor_drag",)),
     )  # fmt: skip
-    made.in_frame = lambda e3: made
-    return made
 
 
 def moves(vehicle: Vehicle) -> Callable[..., Any]:
@@ -129,9 +125,8 @@ def specific_force(state: State, rates: State, vehicle: Any) -> Any:
 
     The centre of mass is at x − R o, with o the `pivot_offset`: Rᵀ (ẍ + g e₃) − ω̇ × o − ω × (ω × o).
     """
-    o = vehicle.pivot_offset if is_symbolic(vehicle.pivot_offset) else ca.DM(vehicle.pivot_offset)
-    turning = ca.cross(rates.omega, o) + ca.cross(state.omega, ca.cross(state.omega, o))
-    return ca.mtimes(state.R.T, rates.x_dot + vehicle.g * E3) - turning
+    swing = swing_around(vehicle.pivot_offset, state.omega, rates.omega)
+    return ca.mtimes(state.R.T, rates.x_dot + vehicle.g * E3) - swing
 
 
 def correct(packed: Numbers, error: Numbers) -> Numbers:

@@ -45,6 +45,14 @@ def gyroscopic_moment(I: Matrix, omega: Vector) -> Vector:
     return cross(omega, apply(I - I[0, 0] * np.eye(3), omega))
 
 
+def swing_around(arm: Vector, omega: Vector, omega_dot: Vector) -> Vector:
+    """ω̇ × r + ω × (ω × r), m/s²: by how much a point at `arm` r (..., 3) of a body accelerates more than its origin.
+
+    All in the body frame: `omega` (..., 3), rad/s, and its rate `omega_dot`.
+    """
+    return cross(omega_dot, arm) + cross(omega, cross(omega, arm))
+
+
 def lie_derivative(h: Scalar, state: State, rates: Rates, t: Scalar = None) -> Numbers:
     """Lie derivative of the CasADi expression `h` along the flow: L(h) = ∂h/∂s · ṡ (+ ∂h/∂t).
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import casadi as ca
 import numpy as np
 
 from flypend.geometry import Numbers, Scalar
 from flypend.model import Vehicle
+from flypend.model.altered import Altered
 from flypend.plants.plant import Plant
 
 # Ratios of a plant's `mismatch` that are inputs of sampled flights.
@@ -16,7 +14,7 @@ RATIOS = ("mass", "bob_mass", "rod_length", "rod_inertia", "inertia", "drag_rati
 SIZE = 7  # numbers of a machine without those of its motors
 
 
-class Machine:
+class Machine(Altered):
     """`vehicle` with other masses, rod, inertia and torque ratio, which may be symbols; all else is the vehicle's own.
 
     Parameters
@@ -37,23 +35,10 @@ class Machine:
         self, vehicle: Vehicle, mass: Scalar, bob_mass: Scalar, M: Scalar, m: Scalar, l: Scalar, inertia: Scalar,
         drag_ratio: Scalar,
     ) -> None:  # fmt: skip
-        self._vehicle = vehicle
-        self.mass, self.bob_mass, self.M, self.m, self.l = mass, bob_mass, M, m, l
-        self.I, self.I_inv = inertia * vehicle.I, vehicle.I_inv / inertia
-        self.drag_ratio = drag_ratio
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._vehicle, name)
-
-    def in_frame(self, e3: str) -> Machine:
-        """Return the machine itself: `e3` is up."""
-        assert e3 == "up"
-        return self
-
-    def mixing(self) -> Numbers:
-        """As `Vehicle.mixing`, e₃ up."""
-        rows = self._vehicle.mixing()
-        return ca.vertcat(rows[:3], ca.DM(self._vehicle.rotor_spins).T * self.drag_ratio)
+        super().__init__(
+            vehicle, mass=mass, bob_mass=bob_mass, M=M, m=m, l=l, I=inertia * vehicle.I, I_inv=vehicle.I_inv / inertia,
+            drag_ratio=drag_ratio,
+        )  # fmt: skip
 
 
 def is_wrong(plant: Plant) -> bool:

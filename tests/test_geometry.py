@@ -185,6 +185,31 @@ def test_project_tangent_is_idempotent_and_nearest(y, v, length, w):
 
 
 @property_test
+@given(units(), units(), vectors)
+def test_parallel_transport_is_the_shortest_rotation(y, y_after, v):
+    assume(y @ y_after > -0.9)
+    b = v - (y @ v) * y
+    axis = np.cross(y, y_after)
+    sine = np.linalg.norm(axis)
+    turn = Rotation.from_rotvec(np.arctan2(sine, y @ y_after) * axis / max(sine, 1e-300))
+    close(geo.parallel_transport(b, y, y_after), turn.apply(b), size=1e3)
+
+
+@property_test
+@given(units())
+def test_any_tangent_is_a_unit_vector_across(y):
+    for at in (y, *np.eye(3), *-np.eye(3)):
+        b = geo.any_tangent(at)
+        close([b @ at, b @ b], [0, 1])
+
+
+@property_test
+@given(vectors, st.floats(0.1, 3))
+def test_shortened_keeps_direction_and_what_is_short(v, most):
+    close(geo.shortened(v, most), v * min(1, most / max(np.linalg.norm(v), 1e-300)), size=3)
+
+
+@property_test
 @given(vectors, units())
 def test_unit_is_idempotent_and_nearest(v, other):
     assume(np.linalg.norm(v) > 1e-3)
@@ -204,6 +229,16 @@ def test_project_rotation_is_a_rotation_idempotent_and_nearest(R, noise, other, 
     close(geo.project_rotation(p), p)
     for candidate in (other, p @ Rotation.from_rotvec(1e-3 * v).as_matrix()):
         assert np.linalg.norm(m - p) <= np.linalg.norm(m - candidate) + ROUNDOFF
+
+
+@property_test
+@given(rotations(), arrays(float, (3, 3), elements=st.floats(-1, 1, allow_subnormal=False)), st.floats(1e-8, 1e-3))
+def test_a_polar_step_squares_the_distance_from_the_nearest_rotation(R, noise, size):
+    m = R + size * noise
+    left = np.linalg.norm(geo.polar_step(m) - geo.project_rotation(m))
+    assert left <= 1.5 * np.linalg.norm(m - geo.project_rotation(m)) ** 2 * 1.01 + ROUNDOFF  # of each singular value
+    close(geo.polar_step(R), R)
+    close(geo.transpose(np.stack([R, m])), [R.T, m.T])
 
 
 @property_test
@@ -327,9 +362,20 @@ FUNCTIONS = {
     "transport": (geo.transport, "vvv"),
     "transport_derivative": (geo.transport_derivative, "vvvvv"),
     "project_tangent": (geo.project_tangent, "vv"),
+    "shortened": (lambda v: geo.shortened(v, 1.5), "v"),
+    "parallel_transport": (geo.parallel_transport, "vvv"),
+    "any_tangent": (geo.any_tangent, "v"),
+    "transpose": (geo.transpose, "m"),
+    "polar_step": (geo.polar_step, "m"),
 }
 SHAPE = {"v": (3,), "s": (), "m": (3, 3)}
-NUMPY_ONLY_IN_BATCH = ("hat", "vee", "apply")  # they make or take matrices, of which CasADi has no batch
+NUMPY_ONLY_IN_BATCH = (
+    "hat",
+    "vee",
+    "apply",
+    "transpose",
+    "polar_step",
+)  # they make or take matrices, of which CasADi has no batch
 
 
 def _arguments(kinds, batch):

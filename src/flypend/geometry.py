@@ -100,6 +100,12 @@ def unit(a: Vector) -> Vector:
     return scale(1 / norm(a), a)
 
 
+def shortened(v: Vector, most: Scalar) -> Vector:
+    """`v`, or where it is longer than `most`, the vector of that length along it."""
+    excess = norm(v) / most
+    return scale(1 / (ca.fmax(1, excess) if is_symbolic(excess) else np.fmax(1, excess)), v)
+
+
 def hat(v: Vector) -> Matrix:
     """Skew-symmetric matrix v̂ with v̂ w = v × w, shape (..., 3, 3)."""
     v1, v2, v3 = _components(v)
@@ -141,6 +147,11 @@ def apply(m: Matrix, v: Vector) -> Vector:
     return np.einsum("...ij,...j->...i", np.asarray(m, dtype=float), np.asarray(v, dtype=float))
 
 
+def transpose(m: Matrix) -> Matrix:
+    """mᵀ, with leading batch axes."""
+    return m.T if is_symbolic(m) else np.swapaxes(m, -1, -2)
+
+
 def transport(phi: Vector, phi_d: Vector, phi_d_dot: Vector) -> Vector:
     """Transport map τ(φ, φ_d) φ̇_d = (φ_d × φ̇_d) × φ from T_{φ_d}S² to T_φS² (Lemma 2)."""
     return cross(cross(phi_d, phi_d_dot), phi)
@@ -153,6 +164,18 @@ def transport_derivative(phi: Vector, phi_dot: Vector, phi_d: Vector, phi_d_dot:
     """
     omega_d = cross(phi_d, phi_d_dot)
     return scale(dot(phi, omega_d), cross(phi, phi_dot)) + cross(cross(phi_d, phi_d_ddot), phi)
+
+
+def parallel_transport(b: Vector, y: Vector, y_after: Vector) -> Vector:
+    """The tangent vector `b` at the unit vector `y` carried to `y_after` by the shortest rotation between the two."""
+    return b - scale(dot(b, y_after) / (1 + dot(y, y_after)), y + y_after)
+
+
+def any_tangent(y: Vector) -> Vector:
+    """Some unit vector tangent to S² at the unit vector y: closest to the first axis, near that to the second."""
+    y_1, *_ = _components(y)
+    first = 1.0 * (y_1**2 < 0.5)
+    return unit(tangent_part(y, _vector(first, 1 - first, 0 * first, _is_batch(y))))
 
 
 def project_tangent(y: Vector, v: Vector) -> Vector:
@@ -171,6 +194,15 @@ def project_rotation(m: Matrix) -> Matrix:
     return u @ vt
 
 
+def polar_step(m: Matrix) -> Matrix:
+    """Matrices (..., 3, 3) after one Newton step m(3 − mᵀm)/2 towards their nearest rotations, close by.
+
+    It squares the error: 1e-8 becomes 1e-16.
+    """
+    eye = ca.DM.eye(3) if is_symbolic(m) else np.eye(3)
+    return m @ (3 * eye - transpose(m) @ m) / 2
+
+
 def rotation_defect(m: Matrix) -> Scalar:
     """Distance of matrices (..., 3, 3) from SO(3): Frobenius norm of mᵀm − 1, and at least 2 unless det m > 0.
 
@@ -178,7 +210,7 @@ def rotation_defect(m: Matrix) -> Scalar:
     """
     m = np.asarray(m, dtype=float)
     with np.errstate(over="ignore", invalid="ignore"):
-        defect = np.linalg.norm(np.swapaxes(m, -1, -2) @ m - np.eye(3), axis=(-2, -1))
+        defect = np.linalg.norm(transpose(m) @ m - np.eye(3), axis=(-2, -1))
     defect = np.where(np.isnan(defect), np.inf, defect)
     near = np.where((defect < 2)[..., None, None], m, np.eye(3))  # whose products cannot overflow
     # Not LAPACK's determinant, which divides by pivots, and warns where these are denormal.
@@ -207,10 +239,10 @@ def quat_xyzw_from_rotation(m: Matrix) -> Numbers:
     m = np.asarray(m, dtype=float)
     i = range(3)
     four_q_q = np.empty((*m.shape[:-2], 4, 4))  # 4 q qᵀ: every column is parallel to q; take the largest
-    four_q_q[..., :3, :3] = m + np.swapaxes(m, -1, -2)
+    four_q_q[..., :3, :3] = m + transpose(m)
     trace = np.trace(m, axis1=-2, axis2=-1)
     four_q_q[..., i, i] += (1 - trace)[..., None]
-    four_q_q[..., 3, :3] = four_q_q[..., :3, 3] = vee(m - np.swapaxes(m, -1, -2))
+    four_q_q[..., 3, :3] = four_q_q[..., :3, 3] = vee(m - transpose(m))
     four_q_q[..., 3, 3] = 1 + trace
     largest = np.argmax(np.diagonal(four_q_q, axis1=-2, axis2=-1), axis=-1)
     column = np.take_along_axis(four_q_q, largest[..., None, None], axis=-1)[..., 0]

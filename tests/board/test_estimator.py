@@ -17,6 +17,7 @@ from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.flight.kernels import sampled_kernel
 from flypend.flight.request import Flight
+from flypend.geometry import parallel_transport
 from flypend.laws import references
 from flypend.model.motion import Disturbance, disturbed_motion
 from flypend.plants import ROTORS, SUITES, Plant, Sensor, Wind
@@ -75,7 +76,7 @@ def test_errors_move_as_the_motion_of_two_neighbours_tells(seed):
 
     after = later(state)
     y, y_after = state[18:21], after[18:21]
-    b_after = np.asarray(ca.DM(error_state.carry_frame(*map(ca.DM, (b, y, y_after))))).ravel()
+    b_after = parallel_transport(b, y, y_after)
     P = ca.SX.sym("P", ERRORS, ERRORS)
     packed, tangent = ca.SX.sym("s", 24), ca.SX.sym("b", 3)
     s = fp.State.symbolic(packed)

@@ -1,13 +1,14 @@
 """The equations of motion in momenta are those of the paper."""
 
+import casadi as ca
 import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.geometry import cross
+from flypend.geometry import cross, hat, vee
 from flypend.model import Disturbance, disturbed_motion
-from flypend.model.dynamics import gyroscopic_moment
-from flypend.model.momenta import angular_acceleration, outside_on_rod, pull_on_rod
+from flypend.model.dynamics import gyroscopic_moment, swing_around
+from flypend.model.momenta import angular_acceleration, outside_on_rod, pull_on_rod, split_force
 
 LOPSIDED = fp.vehicle("hehn2011").replace(inertia=[[0.0032, 2e-4, -1e-4], [2e-4, 0.0041, 3e-4], [-1e-4, 3e-4, 0.0055]])
 
@@ -32,6 +33,36 @@ def test_rates_of_momenta_are_those_of_the_equations_of_motion(vehicle):
     mass, arm = vehicle.M + vehicle.m, vehicle.m * vehicle.l / (vehicle.M + vehicle.m)
     force = thrust[:, None] * state.z + on_vehicle + on_bob - vehicle.weight * np.array([0, 0, 1])
     np.testing.assert_allclose(rates.x_ddot + arm * rates.y_ddot, force / mass, rtol=0, atol=1e-10)
+
+
+def test_forces_are_split_into_those_with_their_sum_and_difference():
+    total, difference = np.random.default_rng(3).normal(size=(2, 50, 3))
+    for vehicle in (fp.vehicle("hehn2011"), fp.vehicle("nayak2018")):
+        on_vehicle, on_bob = split_force(total, difference, vehicle)
+        np.testing.assert_allclose(on_vehicle + on_bob, total, rtol=0, atol=1e-14)
+        np.testing.assert_allclose(
+            vehicle.l * outside_on_rod(on_vehicle, on_bob, vehicle), difference, rtol=0, atol=1e-13
+        )
+        alone = split_force(total, 0 * difference, vehicle)[1]  # both accelerate alike, each by its mass
+        np.testing.assert_allclose(alone, vehicle.m / (vehicle.M + vehicle.m) * total, rtol=0, atol=1e-15)
+
+
+def test_a_point_of_a_turning_body_accelerates_as_its_position_in_the_world():
+    """R(t) = exp(t â) exp(t² b̂) in CasADi, whose second derivative makes the acceleration."""
+    t, arm = ca.SX.sym("t"), np.array([0.3, -0.2, 0.5])
+    turns = []
+    for axis, angle in (((1, 0, 0), 1.3 * t), ((0, 0.6, 0.8), t**2)):
+        k = hat(np.array(axis, dtype=float))
+        turns.append(ca.DM.eye(3) + ca.sin(angle) * k + (1 - ca.cos(angle)) * k @ k)
+    R = turns[0] @ turns[1]
+    rate = ca.reshape(ca.jacobian(ca.vec(R), t), 3, 3)
+    omega = vee(R.T @ rate)
+    place = R @ arm
+    felt = R.T @ ca.jacobian(ca.jacobian(place, t), t)
+    got, omega, omega_dot = ca.Function("f", [t], [felt, omega, ca.jacobian(omega, t)])(0.7)
+    expected = swing_around(arm, omega.full().ravel(), omega_dot.full().ravel())
+    np.testing.assert_allclose(got.full().ravel(), expected, rtol=0, atol=1e-13)
+    np.testing.assert_array_equal(expected, ca.DM(swing_around(arm, omega, omega_dot)).full().ravel())
 
 
 def test_the_gyroscopic_moment_is_that_of_the_whole_inertia():

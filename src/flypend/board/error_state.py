@@ -30,7 +30,7 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, tangent_part, unit
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, polar_step, tangent_part, unit
 from flypend.model import State, Vehicle
 from flypend.plants.cascade import rotation_by
 from flypend.plants.noise import Noise
@@ -80,17 +80,6 @@ def lever(vehicle: Vehicle) -> Scalar:
 def frame(b: Vector, y: Vector) -> Numbers:
     """Return B (3, 2) for its first column `b` (3,) at the rod `y`."""
     return ca.horzcat(b, cross(y, b))
-
-
-def carry_frame(b: Vector, y: Vector, y_after: Vector) -> Vector:
-    """Return the tangent vector `b` (3,) at `y` carried to `y_after` by the shortest rotation."""
-    return b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)
-
-
-def any_tangent(y: Vector) -> Vector:
-    """Return some unit vector (3,) tangent at `y`."""
-    level = ca.fabs(y[0]) < 0.7
-    return unit(tangent_part(y, ca.vertcat(level, 1 - level, 0)))
 
 
 def unpack(numbers: Numbers) -> Numbers:
@@ -160,9 +149,11 @@ def correct(s: State, b: Vector, error: Numbers, vehicle: Vehicle) -> tuple[Stat
     y_dot = tangent_part(y, s.y_dot + B @ error[SWING])
     x = s.x + error[CENTRE] + a * (s.y - y)
     x_dot = s.x_dot + error[VELOCITY] + a * (s.y_dot - y_dot)
-    R = turn @ s.R
-    R = R @ (3 * ca.SX.eye(3) - R.T @ R) / 2  # one Newton step of the polar decomposition
-    return State(x=x, x_dot=x_dot, R=R, omega=s.omega, y=y, y_dot=y_dot), unit(tangent_part(y, b)), turn
+    return (
+        State(x=x, x_dot=x_dot, R=polar_step(turn @ s.R), omega=s.omega, y=y, y_dot=y_dot),
+        unit(tangent_part(y, b)),
+        turn,
+    )
 
 
 class Densities(NamedTuple):

@@ -22,8 +22,20 @@ from flypend.board.expected import GATED, Expected
 from flypend.board.history import REACH, History, finds_latency
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, dot, norm, tangent_part
+from flypend.geometry import (
+    E3,
+    Matrix,
+    Numbers,
+    Scalar,
+    Vector,
+    any_tangent,
+    dot,
+    parallel_transport,
+    shortened,
+    tangent_part,
+)
 from flypend.model import State, Vehicle
+from flypend.model.momenta import split_force
 from flypend.model.state import SIZE
 from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import hold, step_timing
@@ -108,7 +120,7 @@ class Filter:
         """Return (rotors (n,), estimate (24,), params) → memory before the first step."""
         rotors, packed = ca.SX.sym("r", self._believed.rotors), ca.SX.sym("s", SIZE)
         vehicle, s = self._believed.vehicle, State.symbolic(packed)
-        b = error_state.any_tangent(s.y)
+        b = any_tangent(s.y)
         P = error_state.first_covariance(self.sensors.start, s, error_state.frame(b, s.y), vehicle)
         P = ca.diagcat(P, error_state.PULL_PRIOR**2)
         if self.sensors.attitude is None:
@@ -248,8 +260,7 @@ class Filter:
         M, m, s = vehicle.M, vehicle.m, State.symbolic(parts["state"])
         on_vehicle = ca.sum1(parts["rotors"]) * s.z + outside[:3]
         more = parts["pull"] * tangent_part(s.y, outside[3:] / m - on_vehicle / M)
-        on_bob = m * M / (M + m) * more
-        pulled = outside + ca.vertcat(-on_bob, on_bob)
+        pulled = outside + ca.vertcat(*split_force(ca.SX(3, 1), more, vehicle))
         return ca.Function("pulled", [memory, outside, self._believed.symbols], [ca.cse(ca.densify(pulled))])
 
     def _moved(self) -> ca.Function:
@@ -276,7 +287,7 @@ class Filter:
         P = error_state.unpack(parts["covariance"])
         P = error_state.propagate(P, s, parts["frame"], force, vehicle, h, self._densities(force + outside[3:]))
         parts |= {
-            "frame": error_state.carry_frame(parts["frame"], s.y, s_after.y),
+            "frame": parallel_transport(parts["frame"], s.y, s_after.y),
             "covariance": error_state.pack(P),
             "past": self._remember(parts, s, s_after),
         }
@@ -346,11 +357,9 @@ def _lasting(
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     total = total + pace * (M + m) * error[error_state.VELOCITY]
     B = error_state.frame(b, s.y)
-    total = total / ca.fmax(1, norm(total) / limit)
     difference = tangent_part(s.y, difference) + pace * l * B @ error[error_state.SWING]
-    difference = difference / ca.fmax(1, norm(difference) * m / limit)
-    on_bob = m * M / (M + m) * (difference + total / M)
-    return total, difference, ca.vertcat(total - on_bob, on_bob)
+    total, difference = shortened(total, limit), shortened(difference, limit / m)
+    return total, difference, ca.vertcat(*split_force(total, difference, vehicle))
 
 
 def segments_of(plant: Plant) -> tuple[Segment, ...]:

@@ -8,7 +8,7 @@ from flypend.board import error_state as errors
 from flypend.board.error_state import Reading
 from flypend.board.felt import force_of
 from flypend.board.history import REACH, History, finds_latency
-from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, unit, vee
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, parallel_transport, unit, vee
 from flypend.model import State, Vehicle
 from flypend.plants.defects import POSES
 from flypend.plants.sensing import readings_record
@@ -139,7 +139,7 @@ class Expected:
         """Return the rod `age` seconds ago, and the frame there that its errors now are carried to."""
         s = self._s
         y = unit(s.y - age * s.y_dot + self._history.at(self._past["y"], 0.0, age))
-        return y, errors.frame(errors.carry_frame(self._b, s.y, y), y)
+        return y, errors.frame(parallel_transport(self._b, s.y, y), y)
 
     def _attitude_at(self, age: Scalar) -> Matrix:
         entries = self._past["attitude"]

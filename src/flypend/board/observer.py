@@ -14,10 +14,10 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, Numbers, Scalar, Vector, cross
+from flypend.geometry import E3, Numbers, Scalar, Vector, cross, shortened
 from flypend.laws import Computer
 from flypend.model import State, linear_momentum
-from flypend.model.momenta import pull_on_rod
+from flypend.model.momenta import pull_on_rod, split_force
 from flypend.model.state import SIZE
 
 TOLD = Record(
@@ -92,7 +92,6 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
         bob, N, and the scale, true over modelled thrust, less 1.
     """
     vehicle, L = believed.vehicle, computer.observer
-    M, m, l = vehicle.M, vehicle.m, vehicle.l
     packed, given = ca.SX.sym("s", SIZE), ca.SX.sym("f", thrusts)
     memory = ca.SX.sym("memory", RECORD.length)
     begun, momenta, before, estimate, thrust, told = RECORD.split(memory).values()
@@ -107,10 +106,12 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     thrust = thrust + L * period * (by_thrust - thrust)
     told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], period, L, vehicle.weight)
     rest = unknown - scale * thrust
-    total, difference = rest[:3], l * cross(rest[3:], s.y)  # F_v + F_b, and D without its component along the rod
-    on_bob = m * M / (M + m) * (difference + total / M)
-    limit = computer.force_limit * vehicle.weight
-    forces = [force / ca.fmax(1, ca.norm_2(force) / limit) for force in (total - on_bob, on_bob)]
+    # F_v + F_b, and D without its component along the rod.
+    limit, split = (
+        computer.force_limit * vehicle.weight,
+        split_force(rest[:3], vehicle.l * cross(rest[3:], s.y), vehicle),
+    )
+    forces = [shortened(force, limit) for force in split]
     kept = {"begun": 1, "momenta": following, "known": known, "unknown": unknown, "thrust": thrust, "told": told}
     outputs = ca.cse([ca.densify(RECORD.join(kept)), ca.densify(ca.vertcat(*forces)), scale])
     return ca.Function("observe", [packed, given, memory, believed.symbols], outputs)

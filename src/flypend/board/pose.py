@@ -10,7 +10,7 @@ from __future__ import annotations
 import casadi as ca
 
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, cross, vee
+from flypend.geometry import E3, cross, polar_step, vee
 from flypend.plants.cascade import rotation_by
 from flypend.plants.sensing import NOTHING
 
@@ -63,8 +63,7 @@ def tracking(period: float, gravity: float) -> ca.Function:
     def chosen(kept: ca.SX, better: ca.SX, anew: ca.SX) -> ca.SX:
         return ca.if_else(fresh, ca.if_else(begins, anew, better), kept)
 
-    R = chosen(R, corrected, told)
-    R = R @ (3 * ca.SX.eye(3) - R.T @ R) / 2  # rounding off the rotations
+    R = polar_step(chosen(R, corrected, told))  # rounding off the rotations
     after = RECORD.join(
         {
             "x": chosen(x, x + (1 - pole**2) * off, position),

@@ -30,3 +30,10 @@ def pull_on_rod(thrust: Scalar, z: Vector, vehicle: Vehicle) -> Vector:
 def outside_on_rod(on_vehicle: Vector, on_bob: Vector, vehicle: Vehicle) -> Vector:
     """Return the part of b (..., 3), 1/s², that external forces on vehicle and bob (N) exert: (F_b/m − F_v/M)/l."""
     return (on_bob / vehicle.m - on_vehicle / vehicle.M) / vehicle.l
+
+
+def split_force(total: Vector, difference: Vector, vehicle: Vehicle) -> tuple[Vector, Vector]:
+    """Return the forces F_v and F_b (..., 3), N, with this `total` and `difference` F_b/m − F_v/M, m/s²."""
+    M, m = vehicle.M, vehicle.m
+    on_bob = m * M / (M + m) * (difference + total / M)
+    return total - on_bob, on_bob

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale
-from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment
+from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale, transpose
+from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment, swing_around
 from flypend.model.joint import on_rod
 from flypend.model.rod import is_point, share_out
 from flypend.model.state import E3Direction, State, Wrench
@@ -107,13 +107,13 @@ def disturbed_motion(
     if disturbance.joint_torque is not None or disturbance.spin:
         torque = 0 * state.y if disturbance.joint_torque is None else disturbance.joint_torque
         P = on_rod(state, torque, disturbance.spin, l)
-        back = _transpose(R)
+        back = transpose(R)
         F_v, F_b, moment = F_v - P, F_b + P, moment - apply(back, torque) - cross(o, apply(back, P))
 
-    arm = cross(o, apply(_transpose(R), y))  # moment per unit tension, body frame
+    arm = cross(o, apply(transpose(R), y))  # moment per unit tension, body frame
     a = apply(I_inv, arm)  # (3)
     alpha = apply(I_inv, moment - gyroscopic_moment(I, omega))
-    s_0 = apply(R, cross(alpha, o) + cross(omega, cross(omega, o)))  # (4)
+    s_0 = apply(R, swing_around(o, omega, alpha))  # (4)
     h_0 = F_v / M - F_b / m + s_0
     T = (l * speed_squared - f / M * dot(y, z) - dot(y, h_0)) / (1 / m + 1 / M + dot(arm, a))  # (6)
 
@@ -137,13 +137,8 @@ def _of_rigid_body(
     share = 1 - own / M
     I = vehicle.I + own * share * (o @ o * np.eye(3) - np.outer(o, o))  # parallel axes, reduced mass
     at_pivot, on_bob = share_out(on_rod, vehicle)
-    back = _transpose(state.R)
+    back = transpose(state.R)
     pushed = apply(back, on_vehicle) + scale(wrench.thrust, E3)
     moment = wrench.moment - cross(share * o, pushed) + cross((1 - share) * o, apply(back, at_pivot))
     inverse = ca.inv_minor(I) if is_symbolic(I) else np.linalg.inv(I)
     return (1 - share) * o, I, inverse, moment, on_vehicle + at_pivot, on_bob
-
-
-def _transpose(R: Matrix) -> Matrix:
-    """Rᵀ, with leading batch axes."""
-    return R.T if is_symbolic(R) else np.swapaxes(R, -1, -2)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Numbers, Scalar, Vector, apply, cross, is_symbolic
+from flypend.geometry import Numbers, Scalar, Vector, apply, cross, is_symbolic, transpose
 from flypend.model.body import Body
 from flypend.model.dynamics import rod_tension
 from flypend.model.state import FLIP, E3Direction, State, Wrench
@@ -78,7 +78,7 @@ def rod_in_body(state: State, e3: E3Direction) -> tuple[Vector, Vector]:
 
     `state` is in the frame `e3`, whose body frame points e₃ down along with the world's.
     """
-    turned = state.R.T if is_symbolic(state.y) else np.swapaxes(state.R, -1, -2)
+    turned = transpose(state.R)
     rod = apply(turned, state.y)
     rate = apply(turned, state.y_dot) - cross(state.omega, rod)
     return (rod, rate) if e3 == "up" else (apply(FLIP, rod), apply(FLIP, rate))

@@ -302,12 +302,8 @@ assert tuple(field.name for field in fields(State)) == tuple(SHAPES)
 
 
 def project_symbolic(packed: Numbers) -> Numbers:
-    """Project a packed CasADi state (24, 1), close to the manifold, onto it.
-
-    R takes one Newton step of the polar decomposition, R(3 − RᵀR)/2, which squares the error: 1e-8 becomes 1e-16.
-    """
+    """Project a packed CasADi state (24, 1), close to the manifold, onto it; R by one `geometry.polar_step`."""
     s = State.symbolic(packed)
     y = s.y / ca.norm_2(s.y)
     y_dot = s.y_dot - ca.dot(y, s.y_dot) * y
-    rotation = s.R @ (3 * ca.SX.eye(3) - s.R.T @ s.R) / 2
-    return State(x=s.x, x_dot=s.x_dot, R=rotation, omega=s.omega, y=y, y_dot=y_dot).packed()
+    return State(x=s.x, x_dot=s.x_dot, R=geometry.polar_step(s.R), omega=s.omega, y=y, y_dot=y_dot).packed()

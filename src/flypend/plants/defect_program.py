@@ -29,10 +29,11 @@ from flypend.geometry import (
     Numbers,
     Scalar,
     Vector,
+    any_tangent,
     cross,
-    dot,
     hat,
     is_symbolic,
+    parallel_transport,
     rotation_from_vector,
     tangent_part,
     unit,
@@ -65,12 +66,11 @@ def record(sensors: Sensors) -> Record:
 
 def first(sensors: Sensors, y: Vector, draws: Numbers) -> Numbers:
     """Return the memory of the defects at the start, for a rod `y` (3,) and standard normal `draws`."""
-    axis = ca.if_else(y[0] ** 2 < 0.5, ca.DM([1, 0, 0]), ca.DM([0, 1, 0]))
     values = {
         "errors": draws,
         "gyro_walk": np.zeros(3),
         "accelerometer_walk": np.zeros(3),
-        "rod_frame": unit(tangent_part(y, axis)),
+        "rod_frame": any_tangent(y),
         "burst": 0.0,
     }
     return record(sensors).join(values)
@@ -122,8 +122,8 @@ def _quantile(probability: Any) -> Any:
 
 
 def _carry(b: Vector, y: Vector, y_after: Vector) -> Vector:
-    """Return the unit vector `b` ⊥ `y` carried to `y_after` by the smallest rotation between the two."""
-    return unit(tangent_part(y_after, b - dot(b, y_after) / (1 + dot(y, y_after)) * (y + y_after)))
+    """Return the unit vector `b` ⊥ `y` carried to `y_after`, without what roundoff adds up over many periods."""
+    return unit(tangent_part(y_after, parallel_transport(b, y, y_after)))
 
 
 def _turn_about(axis: Vector, sine: Scalar, cosine: Scalar) -> Matrix:

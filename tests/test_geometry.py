@@ -427,6 +427,11 @@ def test_a_fixed_vector_may_meet_a_casadi_batch():
         close(got, function(values, geo.E3))
 
 
+def test_casadi_turns_a_quaternion_into_the_matrix_of_numpy():
+    q, given = ca.SX.sym("q", 4), np.array([0.3, -0.8, 0.1, 1.7])
+    close(ca.Function("f", [q], [geo.rotation_from_quat_xyzw(q)])(given).full(), geo.rotation_from_quat_xyzw(given))
+
+
 def test_wrong_shapes_are_refused():
     for shape in ((3, 2), (4, 1), (4, 2), (1, 1)):
         with pytest.raises(ValueError, match=r"expected a CasADi vector of shape"):

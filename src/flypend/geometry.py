@@ -219,10 +219,17 @@ def rotation_defect(m: Matrix) -> Scalar:
 
 
 def rotation_from_quat_xyzw(quat_xyzw: Numbers) -> Matrix:
-    """Rotation matrices (..., 3, 3) of the quaternions `quat_xyzw` (..., 4), order x, y, z, w, normalised on input."""
-    q = np.asarray(quat_xyzw, dtype=float)
-    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
-    v, w = q[..., :3], q[..., 3, None, None]
+    """Rotation matrices (..., 3, 3) of quaternions `quat_xyzw` (..., 4), order x, y, z, w, normalised on input.
+
+    In CasADi that of one quaternion (4, 1).
+    """
+    if is_symbolic(quat_xyzw):
+        q = quat_xyzw / ca.norm_2(quat_xyzw)
+        v, w = q[:3], q[3]
+    else:
+        q = np.asarray(quat_xyzw, dtype=float)
+        q = q / np.linalg.norm(q, axis=-1, keepdims=True)
+        v, w = q[..., :3], q[..., 3, None, None]
     skew = hat(v)
     return np.eye(3) + 2 * w * skew + 2 * skew @ skew
 

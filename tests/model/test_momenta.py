@@ -8,7 +8,7 @@ import flypend as fp
 from flypend.geometry import cross, hat, vee
 from flypend.model import Disturbance, disturbed_motion
 from flypend.model.dynamics import gyroscopic_moment, swing_around
-from flypend.model.momenta import angular_acceleration, outside_on_rod, pull_on_rod, split_force
+from flypend.model.momenta import angular_acceleration, lever, moment_for, outside_on_rod, pull_on_rod, split_force
 
 LOPSIDED = fp.vehicle("hehn2011").replace(inertia=[[0.0032, 2e-4, -1e-4], [2e-4, 0.0041, 3e-4], [-1e-4, 3e-4, 0.0055]])
 
@@ -24,13 +24,14 @@ def test_rates_of_momenta_are_those_of_the_equations_of_motion(vehicle):
 
     turning = angular_acceleration(moment, state.omega, vehicle)
     np.testing.assert_allclose(turning, rates.omega_dot, rtol=1e-12, atol=1e-9)
+    np.testing.assert_allclose(moment_for(turning, state.omega, vehicle), moment, rtol=0, atol=1e-12)
 
     pull = pull_on_rod(thrust, state.z, vehicle) + outside_on_rod(on_vehicle, on_bob, vehicle)
     H = cross(state.y, state.y_dot)
     np.testing.assert_allclose(cross(state.y, pull), cross(state.y, rates.y_ddot), rtol=0, atol=1e-10)  # Ḣ
     np.testing.assert_allclose(cross(H, state.y), state.y_dot, rtol=0, atol=1e-13)
 
-    mass, arm = vehicle.M + vehicle.m, vehicle.m * vehicle.l / (vehicle.M + vehicle.m)
+    mass, arm = vehicle.M + vehicle.m, lever(vehicle)
     force = thrust[:, None] * state.z + on_vehicle + on_bob - vehicle.weight * np.array([0, 0, 1])
     np.testing.assert_allclose(rates.x_ddot + arm * rates.y_ddot, force / mass, rtol=0, atol=1e-10)
 

@@ -10,12 +10,12 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar, apply
+from flypend.geometry import Numbers, Scalar
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
 from flypend.model.altered import Altered
-from flypend.model.dynamics import gyroscopic_moment
+from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rotor_forces
 from flypend.plants.lag import largest_lead
@@ -128,8 +128,7 @@ def to_command(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers,
     vehicle, plant = believed.vehicle, loop.sampled
     if plant.interface == "rates":
         omega = State.symbolic(packed).omega
-        free = moment - gyroscopic_moment(vehicle.I, omega)
-        return ca.vertcat(thrust, omega + apply(vehicle.I_inv, free) / plant.rate_loop_gain)
+        return ca.vertcat(thrust, omega + angular_acceleration(moment, omega, vehicle) / plant.rate_loop_gain)
     lead = usable_lead(loop.law, loop.vehicle, plant)
     command = lead_rotors(rotor_forces(thrust, moment, vehicle, plant.limits), rotors, lead)
     if plant.limits:

@@ -32,6 +32,7 @@ import numpy as np
 
 from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, polar_step, tangent_part, unit
 from flypend.model import State, Vehicle
+from flypend.model.momenta import lever
 from flypend.plants.cascade import rotation_by
 from flypend.plants.noise import Noise
 
@@ -70,11 +71,6 @@ class Reading(NamedTuple):
     row: Numbers
     variance: float
     fresh: Scalar
-
-
-def lever(vehicle: Vehicle) -> Scalar:
-    """Distance of the centre of mass from the pivot, a = m l/(M+m), m."""
-    return vehicle.m * vehicle.l / (vehicle.M + vehicle.m)
 
 
 def frame(b: Vector, y: Vector) -> Numbers:

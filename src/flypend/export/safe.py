@@ -8,7 +8,7 @@ import casadi as ca
 
 from flypend.geometry import E3, apply, cross, scale
 from flypend.model import State
-from flypend.model.dynamics import gyroscopic_moment
+from flypend.model.momenta import moment_for
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 
@@ -34,6 +34,6 @@ def holding(loop: Loop, vehicle: Any, params: Any) -> ca.Function:
     state = State.symbolic(packed)
     stiffness, damping = levelling(loop)
     turn = scale(stiffness / ca.sqrt((1 + state.z[2]) / 2 + 1e-3), apply(state.R.T, cross(state.z, E3)))
-    moment = apply(vehicle.I, turn - damping * state.omega) + gyroscopic_moment(vehicle.I, state.omega)
+    moment = moment_for(turn - damping * state.omega, state.omega, vehicle)
     thrust = vehicle.weight * ca.fmax(state.z[2], 0)
     return ca.Function("hold", [packed, params], [ca.cse(ca.densify(ca.vertcat(thrust, moment)))])

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.numeric import as_numpy
-from flypend.geometry import E3, Numbers, Vector, hat, tangent_part, unit, vee
+from flypend.geometry import E3, Numbers, Vector, hat, vee
 from flypend.model import State, Vehicle
 from flypend.model.altered import Altered
 from flypend.model.dynamics import swing_around
@@ -22,6 +22,7 @@ from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
 from flypend.plants.equations import rates_under, runge_kutta_step
 from flypend.plants.lag import Ramp
+from flypend.plants.measurement import displaced
 from flypend.plants.plant import Plant
 
 ERROR, GUST = 18, 6  # numbers of a local error of the state, and of the gusts
@@ -131,12 +132,7 @@ def specific_force(state: State, rates: State, vehicle: Any) -> Any:
 
 def correct(packed: Numbers, error: Numbers) -> Numbers:
     """Return the packed state (24, 1) on the manifold that a local `error` (18, 1) makes of `packed`."""
-    s = State.symbolic(packed)
-    y = unit(s.y + error[12:15])
-    return State(
-        x=s.x + error[0:3], x_dot=s.x_dot + error[3:6], R=s.R @ rotation_by(error[6:9]), omega=s.omega + error[9:12],
-        y=y, y_dot=tangent_part(y, s.y_dot + error[15:18]),
-    ).packed()  # fmt: skip
+    return displaced(State.symbolic(packed), error).packed()
 
 
 def shift(packed: Numbers, error: Numbers) -> Numbers:

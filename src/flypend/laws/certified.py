@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
-from flypend.geometry import E3, Numbers, Scalar, apply, cross, dot
+from flypend.geometry import E3, Numbers, Scalar, cross, dot
 from flypend.laws.almost_global_bounds import stands
 from flypend.laws.almost_global_gains import COMPUTER
 from flypend.laws.bound import BoundLaw
@@ -37,7 +37,7 @@ from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.laws.closed_loop import COMMANDS, WRENCH, symbolic_loop, wrench_in
 from flypend.laws.guarantee import list_unmodelled
 from flypend.model import State, Vehicle, Wrench
-from flypend.model.dynamics import gyroscopic_moment
+from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE as PACKED
 
 BODY = ("M", "m", "l", "g")
@@ -142,7 +142,7 @@ def ratios(
     """Return V/c and |ω₃|/w, and |η_α3|/(k_yaw w) of the wrench `acting` through a lag: (2 or 3, 1), in CasADi."""
     found = [V / c, ca.fabs(state.omega[2]) / w]
     if acting is not None:
-        alpha = apply(vehicle.I_inv, acting.moment - gyroscopic_moment(vehicle.I, state.omega))
+        alpha = angular_acceleration(acting.moment, state.omega, vehicle)
         found.append(ca.fabs(alpha[2] / yaw_damping + state.omega[2]) / w)
     return ca.vertcat(*found)
 

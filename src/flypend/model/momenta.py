@@ -22,6 +22,16 @@ def angular_acceleration(moment: Vector, omega: Vector, vehicle: Vehicle) -> Vec
     return apply(vehicle.I_inv, moment - gyroscopic_moment(vehicle.I, omega))
 
 
+def moment_for(alpha: Vector, omega: Vector, vehicle: Vehicle) -> Vector:
+    """Return the moment (..., 3), N m, under which ω̇ is `alpha`, rad/s²: the inverse of `angular_acceleration`."""
+    return apply(vehicle.I, alpha) + gyroscopic_moment(vehicle.I, omega)
+
+
+def lever(vehicle: Vehicle) -> Scalar:
+    """Return the distance c − x of the centre of mass of both bodies from the pivot, m l/(M+m), m."""
+    return vehicle.m * vehicle.l / (vehicle.M + vehicle.m)
+
+
 def pull_on_rod(thrust: Scalar, z: Vector, vehicle: Vehicle) -> Vector:
     """Return the part of b (..., 3), 1/s², that the `thrust` (N) along `z` exerts: −f z/(M l)."""
     return scale(-1 / (vehicle.M * vehicle.l) * thrust, z)

@@ -10,10 +10,10 @@ import numpy as np
 
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
-from flypend.geometry import Numbers, Scalar, Vector, apply
+from flypend.geometry import Numbers, Scalar, Vector
 from flypend.model import Vehicle
 from flypend.model.allocation import allocate
-from flypend.model.dynamics import gyroscopic_moment
+from flypend.model.momenta import moment_for
 from flypend.model.state import SIZE
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.motors import moving
@@ -163,7 +163,7 @@ def rate_loop(
     be symbolic, for code that receives them at run time; `symbols` are these. `name` is that of the function.
     """
     command, omega = ca.SX.sym("c", 4), ca.SX.sym("omega", 3)
-    moment = apply(vehicle.I, gain * (command[1:] - omega)) + gyroscopic_moment(vehicle.I, omega)
+    moment = moment_for(gain * (command[1:] - omega), omega, vehicle)
     inputs = [command, omega, ca.SX(0, 1) if symbols is None else symbols]
     return ca.Function(name, inputs, [rotor_forces(command[0], moment, vehicle, limits)])
 

@@ -14,7 +14,7 @@ import casadi as ca
 
 from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, cross, dot, scale, unit
 from flypend.model import State, Vehicle
-from flypend.model.momenta import angular_acceleration, outside_on_rod, pull_on_rod
+from flypend.model.momenta import angular_acceleration, lever, outside_on_rod, pull_on_rod
 from flypend.plants.lag import Ramp
 
 # tan(θ/2)/θ as a polynomial in θ²: at θ = 0.5 rad the next term is 3e-7 of the first.
@@ -119,8 +119,8 @@ def _carry(
 
     The centre of mass accelerates by f z/(M+m), a multiple of each of `pulls`, and by a constant `acceleration`.
     """
-    M, m, l = vehicle.M, vehicle.m, vehicle.l
-    arm, per_pull = m * l / (M + m), -M * l / (M + m)
+    M, m, arm = vehicle.M, vehicle.m, lever(vehicle)
+    per_pull = -M * vehicle.l / (M + m)
     start, middle, end = pulls
     gained = h / 6 * per_pull * (start + 4 * middle + end) + h * acceleration
     moved = h**2 / 6 * per_pull * (start + 2 * middle) + h**2 / 2 * acceleration

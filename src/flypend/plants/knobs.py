@@ -5,7 +5,7 @@ A flight in pieces takes them anew with each piece; see `flypend.flight.kernels.
 
 from __future__ import annotations
 
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from typing import Any
 
 import casadi as ca
@@ -16,7 +16,7 @@ from flypend.model import Vehicle
 from flypend.plants.defect_program import sizes
 from flypend.plants.defects import NAMES
 from flypend.plants.lag import symbolic_timing
-from flypend.plants.measurement import NOISE_SIZE, WIND_SIZE, wind_numbers
+from flypend.plants.measurement import NOISE_SIZE, wind_numbers
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Sampled, Wind
 from flypend.plants.schedule import SAME, longest_step
@@ -121,11 +121,6 @@ def _hold(lag: Scalar, duration: Scalar) -> Numbers:
 
 def _wind(of: dict[str, Any], plant: Sampled, period: float) -> Numbers:
     """As `wind_numbers`, whose decay and knocks are those of `plant`."""
-    still = Wind() if plant.wind is None else plant.wind
-    fixed = wind_numbers(still, period)
-    added = float(np.sqrt(1 - fixed[0] ** 2))
-    blown = ca.vertcat(
-        fixed[0], added * of["gust_on_vehicle"], added * of["gust_on_bob"], of["on_vehicle"], of["on_bob"], fixed[9:]
-    )
-    assert blown.numel() == WIND_SIZE
-    return blown
+    fixed = wind_numbers(replace(plant.wind or Wind(), gust_on_vehicle=1.0, gust_on_bob=1.0), period)
+    gusty = (fixed[1] * of["gust_on_vehicle"], fixed[2] * of["gust_on_bob"])
+    return ca.vertcat(fixed[0], *gusty, of["on_vehicle"], of["on_bob"], fixed[9:])

@@ -55,16 +55,23 @@ def measurement(*, moved: bool = False) -> ca.Function:
     origin = ca.SX.sym("o", 3 if moved else 0)
     noise = dict(zip((entry.name for entry in fields(Noise)), ca.vertsplit(sigma), strict=True))
     s, draw = State.symbolic(packed), [draws[3 * i : 3 * i + 3] for i in range(6)]
-    y = unit(s.y + noise["y"] * tangent_part(s.y, draw[4]))
-    measured = State(
-        x=s.x + noise["x"] * draw[0] - (origin if moved else 0),
-        x_dot=s.x_dot + noise["x_dot"] * draw[1],
-        R=s.R @ rotation_by(noise["attitude"] * draw[2]),
-        omega=s.omega + noise["omega"] * draw[3],
-        y=y,
-        y_dot=tangent_part(y, s.y_dot + noise["y_dot"] * draw[5]),
-    )
+    error = [noise[name] * each for name, each in zip(noise, draw, strict=True)]
+    error[0] -= origin if moved else 0
+    error[4] = tangent_part(s.y, error[4])
+    measured = displaced(s, ca.vertcat(*error))
     return ca.Function("measure", [packed, draws, ca.vertcat(sigma, origin)], [ca.cse(ca.densify(measured.packed()))])
+
+
+def displaced(s: State, error: Numbers) -> State:
+    """Return the state, on the manifold, that a local `error` (18, 1) makes of `s`, in CasADi.
+
+    The error is (δx, δẋ, φ, δω, δy, δẏ), with R exp(φ̂) for the attitude.
+    """
+    y = unit(s.y + error[12:15])
+    return State(
+        x=s.x + error[0:3], x_dot=s.x_dot + error[3:6], R=s.R @ rotation_by(error[6:9]), omega=s.omega + error[9:12],
+        y=y, y_dot=tangent_part(y, s.y_dot + error[15:18]),
+    )  # fmt: skip
 
 
 def gusts(*, knocks: bool = True) -> ca.Function:

@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
-from flypend.geometry import Matrix, Numbers, Vector, hat
+from flypend.geometry import Matrix, Numbers, Vector, rotation_from_quat_xyzw
 from flypend.model import State, Vehicle
 from flypend.model.mjcf import model_xml
 from flypend.model.state import SIZE
@@ -216,9 +216,7 @@ def state_of(x: Any, R: Any, relative: Vector, qvel: Numbers) -> State:
 
 def rotation_of(quat_wxyz: Numbers) -> Matrix:
     """Rotation matrix of a quaternion, which need not be normalised."""
-    w, v = quat_wxyz[0], quat_wxyz[1:]
-    turn = hat(v)
-    return ca.SX.eye(3) + 2 / ca.sumsqr(quat_wxyz) * (w * turn + turn @ turn)
+    return rotation_from_quat_xyzw(ca.vertcat(quat_wxyz[1:], quat_wxyz[0]))
 
 
 @lru_cache(maxsize=8)

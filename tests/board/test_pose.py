@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from flypend.board import pose
+from flypend.board.tracking import POSE, track_pose
 from flypend.compile.numeric import as_numpy
 from flypend.plants.sensing import NOTHING
 
@@ -36,8 +36,8 @@ def moved(steps, seed=1, spin=12.0):
 def followed(motion, *, late=0, noise=0.0, turned=0.0, bias=0.0, seen=lambda i: True):
     """Memories (n, 19), with poses of so much noise (m, rad) that arrive `late` periods after they were taken."""
     x, _, R, gyro, force = motion
-    track, memory = as_numpy(pose.tracking(PERIOD, GRAVITY)), np.zeros(pose.RECORD.length)
-    memory[pose.RECORD.place("R")], memory[-1] = np.eye(3).ravel(), NOTHING
+    track, memory = as_numpy(track_pose(PERIOD, GRAVITY)), np.zeros(POSE.length)
+    memory[POSE.place("R")], memory[-1] = np.eye(3).ravel(), NOTHING
     rng, found = np.random.default_rng(0), []
     for i in range(len(x)):
         fresh = i % FRAMES == 0 and i >= late and seen(i)
@@ -89,7 +89,7 @@ def test_it_begins_anew_after_a_gap_and_from_an_attitude_far_off():
     assert np.allclose(found[600, 3:6], 0)
     assert found[599, -1] == pytest.approx(0.309)
     assert np.all(errors(found, motion, 1300) < np.array((1e-4, 5e-3, 2e-4)))
-    track, memory = as_numpy(pose.tracking(PERIOD, GRAVITY)), found[-1].copy()
+    track, memory = as_numpy(track_pose(PERIOD, GRAVITY)), found[-1].copy()
     memory[6:15] = (motion[2][-1] @ Rotation.from_rotvec([0, 0, 3.1]).as_matrix()).ravel()
     after = np.asarray(track(memory, motion[0][-1], motion[2][-1].ravel(), 0.0, np.zeros(3), np.zeros(3))).ravel()
     assert np.allclose(after[6:15], motion[2][-1].ravel(), atol=1e-9)

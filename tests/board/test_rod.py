@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from flypend import geometry
-from flypend.board import rod
+from flypend.board.tracking import track_rod
 from flypend.compile.numeric import as_numpy
 from flypend.plants.sensing import NOTHING
 
@@ -33,7 +33,7 @@ def swung(steps, seed=1, smaller=20):
 
 def followed(y, force, *, late=0, noise=0.0, frames=FRAMES):
     track, memory, rng = (
-        as_numpy(rod.tracking(PERIOD)),
+        as_numpy(track_rod(PERIOD)),
         np.array([0, 0, -1.0, 0, 0, 0, NOTHING]),
         np.random.default_rng(0),
     )
@@ -72,7 +72,7 @@ def test_noise_of_a_millimetre_leaves_a_rate_to_fly_with():
 
 def test_it_begins_anew_after_a_gap():
     y, y_dot, force = swung(900, seed=4)
-    track, memory = as_numpy(rod.tracking(PERIOD)), np.array([0, 0, -1.0, 0, 0, 0, NOTHING])
+    track, memory = as_numpy(track_rod(PERIOD)), np.array([0, 0, -1.0, 0, 0, 0, NOTHING])
     for i in range(900):
         fresh = i % FRAMES == 0 and not 300 <= i < 600
         memory = np.asarray(track(memory, y[i], 0.0 if fresh else -1.0, force[max(i - 1, 0)], LENGTH)).ravel()

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from flypend import errors, signals
-from flypend.board import pose, rod
 from flypend.board.history import REACH, History
+from flypend.board.tracking import POSE, ROD, track_pose, track_rod
 from flypend.compile.c99 import call, function, literal
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
@@ -179,7 +179,7 @@ def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Veh
     frame = AIRFRAMES[errors.one_of("airframe", name, tuple(AIRFRAMES))]
     _check_motors(vehicle, name, frame)
     flown = limit_rotors(vehicle, frame)
-    follow = lower(pose.tracking(PERIOD, flown.gravity))
+    follow = lower(track_pose(PERIOD, flown.gravity))
     return flown, _rod_values(PERIOD, "end->from_pivot", "params.rod_length", "rod") | {
         "airframe": name,
         "arm": literal(arm, "float"),
@@ -189,8 +189,8 @@ def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Veh
         "idle": "" if frame.idle is None else f"CONFIG_MOTORS_DEFAULT_IDLE_THRUST={frame.idle}\n",
         "track_pose": function(follow, "float"),
         "pose_scratch": str(scratch(follow).size),
-        "pose_numbers": str(pose.RECORD.length),
-        "pose_attitude": str(pose.RECORD.place("R").start),
+        "pose_numbers": str(POSE.length),
+        "pose_attitude": str(POSE.place("R").start),
         "call_track_pose": call(follow, ("pose", "position", "turned", "&age", "gyro", "felt"), ["pose"], "scratch"),
     }
 
@@ -265,11 +265,11 @@ def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:
 
 def _rod_values(period: float, bob: str, length: str, memory: str) -> dict[str, str]:
     """The function that follows the rod, every `period` seconds, and its call with these names."""
-    track = lower(rod.tracking(period))
+    track = lower(track_rod(period))
     return {
         "track_rod": function(track, "float"),
         "track_scratch": str(scratch(track).size),
-        "rod_numbers": str(rod.RECORD.length),
+        "rod_numbers": str(ROD.length),
         "call_track_rod": call(track, (memory, bob, "&age", "force", f"&{length}"), [memory], "scratch"),
     }
 

@@ -9,9 +9,9 @@ from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.plants import SUITES, Plant, Sensor, Sensors
 from flypend.plants.equations import EquationsEngine
+from flypend.plants.schedule import timing
 from flypend.plants.sensing import WIDTH, draws_of, draws_size, first_memory, sensing
 from flypend.plants.sensors import sensors_called
-from flypend.plants.timing import timing
 
 VEHICLE = fp.vehicle("hehn2011")
 GYRO = Sensor(rate=500.0, noise=1e-2)

@@ -18,8 +18,8 @@ import numpy as np
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, Vector
 from flypend.plants.defects import POSES
+from flypend.plants.schedule import timing
 from flypend.plants.sensors import Sensors
-from flypend.plants.timing import timing
 
 # Numbers per tick of each quantity, and the streams that are compared with it. "x" and "y" are W of pivot and rod,
 # "turning" is ω and "swinging" ẏ less their present values, "attitude" is Gᵀ R by rows, and "force" the specific force

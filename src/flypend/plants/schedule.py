@@ -1,4 +1,4 @@
-"""Schedule of commands within a control period. All periods of a flight share it."""
+"""When commands act and readings arrive, by control periods. All periods of a flight share one schedule."""
 
 from __future__ import annotations
 
@@ -8,9 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from flypend.plants.plant import Plant
+from flypend.plants.sensors import Sensor
 
-# Times closer than this are considered equal, s.
-SAME = 1e-9
+# Times closer than this are considered equal, s; those of readings closer than this share of a control period.
+SAME, SAME_SHARE = 1e-9, 1e-6
+# Readings from which the oldest is found: more than any common multiple of rates in use.
+READINGS = 2000
 # Longest step of the equations, s. Against steps of 0.1 ms a flight of hehn2011 is off by 2e-8 after 2 s in the median,
 # by 2e-6 at most.
 PLANT_STEP = 2e-3
@@ -81,3 +84,47 @@ def in_steps(segments: Sequence[Segment], longest: float) -> list[tuple[Segment,
         steps.setdefault(int(middle / whole * count), []).append(part)
         begin += part.duration
     return [tuple(step) for step in steps.values()]
+
+
+class Timing(NamedTuple):
+    """Timing of a stream of readings against control periods.
+
+    Parameters
+    ----------
+    every : bool
+        Whether there is a reading at every control tick, taken at the tick itself.
+    whole : int
+        Whole control periods in the latency.
+    rest : float
+        The rest of the latency, as a share of a period; 0 ≤ rest < 1.
+    oldest : float
+        Greatest age of a reading when it reaches the flight computer, in periods.
+    """
+
+    every: bool
+    whole: int
+    rest: float
+    oldest: float
+
+    @property
+    def waiting(self) -> int:
+        """Number of control ticks whose readings are still to be delivered."""
+        return self.whole + (self.rest > 0)
+
+    @property
+    def depth(self) -> int:
+        """Number of past ticks that an estimator must remember to place a reading."""
+        return int(np.ceil(self.oldest - SAME_SHARE))
+
+
+def timing(sensor: Sensor, period: float) -> Timing:
+    """Return the timing of `sensor` for a control `period`, s."""
+    per_tick = sensor.rate * period
+    every = per_tick >= 1 - SAME_SHARE and abs(per_tick - round(per_tick)) < SAME_SHARE
+    late = sensor.latency / period
+    whole = int(np.floor(late + SAME_SHARE))
+    rest = late - whole if late - whole > SAME_SHARE else 0.0
+    taken = np.arange(READINGS) / per_tick
+    ages = np.ceil(taken + late - SAME_SHARE) - taken
+    oldest = float(late if every and rest == 0 else min(np.max(ages), late + 1))
+    return Timing(every, whole, rest, oldest)

@@ -15,7 +15,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, cross, is_symbolic, tangent_part, unit
+from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, clip, cross, is_symbolic, tangent_part, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants import defect_program, defects
@@ -23,8 +23,8 @@ from flypend.plants.cascade import rotation_by
 from flypend.plants.defect_program import Defects
 from flypend.plants.defects import POSES
 from flypend.plants.measurement import GUSTS, measurement, noise_numbers
+from flypend.plants.schedule import SAME_SHARE, Timing, timing
 from flypend.plants.sensors import STREAMS, Sensor, Sensors
-from flypend.plants.timing import SAME, Timing, timing
 
 # Numbers of a reading: an attitude has its matrix by rows, joint angles are given as the rod's direction in the body.
 WIDTH = {name: 9 if name == "attitude" else 3 for name in STREAMS}
@@ -175,7 +175,7 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float, *, sized: bool = 
     packed, draws = ca.SX.sym("s", SIZE), ca.SX.sym("n", draws_size(sensors))
     past = remembers.split(memory)
     before, now = State.symbolic(past["state"]), State.symbolic(packed)
-    force = _specific_force(before, now, vehicle, period)
+    force = mean_force(before.x_dot, now.x_dot, before.R, now.R, vehicle.g, period)
     chance = {name: draws[some] for name, some in _defect_draws(sensors).items()}
     numbers = defect_program.size_numbers(sensors, period)
     sizes = ca.SX.sym("sizes", len(numbers)) if sized else ca.SX(numbers)
@@ -186,7 +186,7 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float, *, sized: bool = 
         when = timing(sensor, period)
         since = _since(sensor, when, t, period)
         moment = Moment(now if when.every else _between(before, now, since, period), force)
-        values = wrong.mistaken(name, _READ[name](moment, wrong, sensor, draws[noise]))
+        values = wrong.mistaken(name, _READ[name](moment, wrong, sensor, sensor.noise * draws[noise]))
         if name == "accelerometer":  # no period has passed at time 0
             since = ca.if_else(t > period / 2, since, NOTHING)
         if lost is not None:
@@ -221,7 +221,7 @@ def _shifted(entries: list[Any], latency: float, period: float) -> Numbers:
     found = ca.vertcat(ca.SX.zeros(entries[0].numel() - 2), NOTHING)
     for ticks, entry in reversed(list(enumerate(entries))):
         *_, taken, own = ca.vertsplit(entry)
-        over = taken + ticks * period - (latency + own) + SAME * period
+        over = taken + ticks * period - (latency + own) + SAME_SHARE * period
         arrives = (taken >= 0) * (over >= 0) * (over < period)
         reading = ca.vertcat(entry[:-2], ca.fmax(taken + ticks * period - own, 0))
         found = ca.if_else(arrives, reading, found)
@@ -232,8 +232,8 @@ def _since(sensor: Sensor, when: Timing, t: Scalar, period: float) -> Scalar:
     """Return the time (s) from the newest reading to the tick at `t`; NOTHING if there is none since the last tick."""
     if when.every:
         return ca.SX(0.0)
-    since = ca.fmax(t - ca.floor(t * sensor.rate + SAME) / sensor.rate, 0.0)
-    return ca.if_else(since < (1 - SAME) * period, since, NOTHING)
+    since = ca.fmax(t - ca.floor(t * sensor.rate + SAME_SHARE) / sensor.rate, 0.0)
+    return ca.if_else(since < (1 - SAME_SHARE) * period, since, NOTHING)
 
 
 def _deliver(entries: list[Any], when: Timing, period: float) -> Numbers:
@@ -247,7 +247,7 @@ def _deliver(entries: list[Any], when: Timing, period: float) -> Numbers:
     age = ca.if_else(taken >= 0, taken + when.whole * period, NOTHING)
     if not when.rest:
         return ca.vertcat(found[:-1], age)
-    rest = (when.rest - SAME) * period
+    rest = (when.rest - SAME_SHARE) * period
     early = taken >= rest
     late = entries[when.whole + 1]
     left = (late[-1] >= 0) * (late[-1] < rest)
@@ -281,11 +281,6 @@ def _between(before: State, now: State, since: Scalar, period: float) -> State:
     )
 
 
-def _specific_force(before: State, now: State, vehicle: Vehicle, period: float) -> Vector:
-    """Return the mean of ẍ + g e₃ over a period in the mean body frame, m/s²."""
-    return mean_force(before.x_dot, now.x_dot, before.R, now.R, vehicle.g, period)
-
-
 def mean_force(v: Vector, v_after: Vector, R: Matrix, R_after: Matrix, g: Scalar, period: float) -> Vector:
     """Return the mean specific force, m/s², between two velocities and attitudes a `period` apart, in the body frame.
 
@@ -294,49 +289,29 @@ def mean_force(v: Vector, v_after: Vector, R: Matrix, R_after: Matrix, g: Scalar
     return ((R + R_after) / 2).T @ ((v_after - v) / period + g * E3)
 
 
-# One reading each ------------------------------------------------------------------------------------------------
+# What each stream reads of a moment, given what is wrong, the sensor, and its noise: see `_READINGS`.
+_READ: dict[str, Callable[[Moment, Defects, Sensor, Any], Any]] = {
+    "position": lambda now, wrong, sensor, noise: _quantise(wrong.position(now.state.x, now.state.R) + noise, sensor),
+    "attitude": lambda now, wrong, _, noise: ca.vec((wrong.attitude(now.state.R) @ rotation_by(noise)).T),
+    "rod": lambda now, wrong, _, noise: _point(wrong.rod(now.state.y), noise),
+    "gyro": lambda now, wrong, sensor, noise: _quantise(wrong.gyro(now.state.omega) + noise, sensor),
+    "accelerometer": lambda now, wrong, sensor, noise: _quantise(wrong.accelerometer(now.force) + noise, sensor),
+    "joints": lambda now, wrong, sensor, noise: _joints(now.state, wrong, sensor, noise),
+    "rod_gyro": lambda now, _, sensor, noise: _quantise(
+        now.state.R.T @ cross(now.state.y, now.state.y_dot) + noise, sensor
+    ),
+}
 
 
-def _position(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    """What motion capture sees of the marker's place, m."""
-    return _quantise(wrong.position(moment.state.x, moment.state.R) + sensor.noise * draw, sensor)
-
-
-def _attitude(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Numbers:
-    """What motion capture sees of R (9,), row by row."""
-    return ca.vec((wrong.attitude(moment.state.R) @ rotation_by(sensor.noise * draw)).T)
-
-
-def _rod(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    """What motion capture sees of the rod's direction, a unit vector."""
-    return _point(wrong.rod(moment.state.y), sensor, draw)
-
-
-def _gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    """What the gyroscope reads, rad/s, body frame."""
-    return _quantise(wrong.gyro(moment.state.omega) + sensor.noise * draw, sensor)
-
-
-def _accelerometer(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    """What the accelerometer reads, m/s², body frame."""
-    return _quantise(wrong.accelerometer(moment.force) + sensor.noise * draw, sensor)
-
-
-def _joints(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
+def _joints(state: State, wrong: Defects, sensor: Sensor, noise: Numbers) -> Vector:
     """The rod's direction in the body frame, as the angles of a universal joint tell it: about x, then about y."""
-    seen = moment.state.R.T @ moment.state.y
+    seen = state.R.T @ state.y
     if not sensor.quantisation and not wrong.turns_joints:
-        return _point(seen, sensor, draw)
-    roll, pitch = ca.atan2(-seen[1], seen[2]), ca.asin(ca.fmin(ca.fmax(seen[0], -1), 1))
-    roll, pitch = wrong.joints(roll + sensor.noise * draw[0], pitch + sensor.noise * draw[1])
+        return _point(seen, noise)
+    roll, pitch = ca.atan2(-seen[1], seen[2]), ca.asin(clip(seen[0], -1, 1))
+    roll, pitch = wrong.joints(roll + noise[0], pitch + noise[1])
     roll, pitch = (_quantise(angle, sensor) for angle in (roll, pitch))
     return ca.vertcat(ca.sin(pitch), -ca.cos(pitch) * ca.sin(roll), ca.cos(pitch) * ca.cos(roll))
-
-
-def _rod_gyro(moment: Moment, wrong: Defects, sensor: Sensor, draw: Numbers) -> Vector:
-    """What a gyroscope on the rod reads, rad/s, in the vehicle's body frame."""
-    del wrong
-    return _quantise(moment.state.R.T @ cross(moment.state.y, moment.state.y_dot) + sensor.noise * draw, sensor)
 
 
 def _quantise(values: Numbers, sensor: Sensor) -> Numbers:
@@ -345,16 +320,5 @@ def _quantise(values: Numbers, sensor: Sensor) -> Numbers:
     return step * ca.floor(values / step + 0.5) if step else values
 
 
-def _point(direction: Vector, sensor: Sensor, draw: Numbers) -> Vector:
-    return unit(direction + sensor.noise * tangent_part(direction, draw))
-
-
-_READ: dict[str, Callable[[Moment, Defects, Sensor, Any], Any]] = {
-    "position": _position,
-    "attitude": _attitude,
-    "rod": _rod,
-    "gyro": _gyro,
-    "accelerometer": _accelerometer,
-    "joints": _joints,
-    "rod_gyro": _rod_gyro,
-}
+def _point(direction: Vector, noise: Numbers) -> Vector:
+    return unit(direction + tangent_part(direction, noise))

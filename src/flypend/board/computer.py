@@ -91,55 +91,45 @@ class SteppedBoard:
     def ask(self, t: float, measured: Numbers) -> Numbers:
         """As `command`, before it is trimmed."""
         stages, outside, told = self._stages, None, []
-        if stages.estimating is not None:
-            self.filtered, measured, outside = stages.estimating.correct(self._expecting, measured, NONE)
-            told = [outside] if stages.estimating.forces else []
+        if stages.correct is not None:
+            self.filtered, measured, outside = stages.correct(self._expecting, measured, NONE)
+            told = [outside] if filters(stages.made.loop.sampled) else []
         self.estimated = measured
         measurement = np.append(t, measured)
         kept, forces, state, rotors, horizon = stages.predict(self._memory, measurement, NONE, *told)
         self.predicted = (state, rotors, forces)
         command = self._steer(t + horizon.item(), state, rotors, forces)
         after = stages.remember(self._memory, kept, measurement, forces, command, NONE)
-        if stages.estimating is not None:
-            self._expecting = stages.estimating.carry(self.filtered, outside, command, self._memory, after, NONE)
+        if stages.carry is not None:
+            self._expecting = stages.carry(self.filtered, outside, command, self._memory, after, NONE)
         self._memory = after
         return command
 
 
-class _Estimating(NamedTuple):
-    """The estimator's stages; `forces` says whether external forces are estimated, for `predict`."""
-
-    correct: Callable[..., Any]
-    carry: Callable[..., Any]
-    forces: bool
-
-
 class _Stages(NamedTuple):
+    """Compiled stages of a board; without an estimator, it neither corrects nor carries."""
+
     made: Parts
-    predict: Callable[..., Any]
     steer: Steer
+    predict: Callable[..., Any]
     remember: Callable[..., Any]
     trim: Callable[..., Any]
-    estimating: _Estimating | None
+    correct: Callable[..., Any] | None = None
+    carry: Callable[..., Any] | None = None
 
 
 @lru_cache(maxsize=64)
 def _stages(loop: Loop) -> _Stages:
-    made, estimating = parts(loop), None
-    steer = _call(loop, loop.law) if isinstance(loop.law, Controller) else _compile(loop, made.believed)
+    made = parts(loop)
+    programs = [predicting(made), remembering(made), trimming(made)]
     if made.estimator is not None:
-        correct, carry = as_numpy(made.estimator.correct()), as_numpy(carrying(made))
-        estimating = _Estimating(correct, carry, filters(loop.sampled))
-    predict, remember, trim = (as_numpy(program(made)) for program in (predicting, remembering, trimming))
-    return _Stages(made, predict, steer, remember, trim, estimating)
+        programs += [made.estimator.correct(), carrying(made)]
+    return _Stages(made, _steer(loop, made.believed), *map(as_numpy, programs))
 
 
-def _compile(loop: Loop, believed: Believed) -> Callable[..., Any]:
-    law = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
-    return lambda t, state, rotors, forces: law(t, 0.0, state, rotors, forces, NONE, NONE, NONE)
-
-
-def _call(loop: Loop, law: Controller) -> Callable[..., Any]:
-    """Like `_compile`, for a callable `law`."""
-    end = as_numpy(finish(loop, Believed.numbers(loop.vehicle)))
-    return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)
+def _steer(loop: Loop, believed: Believed) -> Steer:
+    if isinstance(loop.law, Controller):
+        law, end = loop.law, as_numpy(finish(loop, believed))
+        return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)
+    command = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
+    return lambda t, state, rotors, forces: command(t, 0.0, state, rotors, forces, NONE, NONE, NONE)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -55,16 +56,29 @@ class Parts:
         What estimates the state; None for a plant that measures the state itself.
     finding : DelayEstimator, optional
         What finds the delay; None if the law has no reach, or under a rate loop, whose forces the board does not know.
-    memory : Record
-        Table of the memory: `rotors`, the observer and the delay estimator if there are any, the `commands` in transit,
-        newest first, and, with an estimator, its `estimate`.
     """
 
     loop: Loop
     believed: Believed
     estimator: Filter | Differences | None
     finding: DelayEstimator | None
-    memory: Record
+
+    @cached_property
+    def memory(self) -> Record:
+        """Table of the memory: `rotors`, observer and delay estimator, `commands` in transit, newest first, `estimate`.
+
+        It holds what there is of them.
+        """
+        loop, width = self.loop, command_width(self.loop)
+        unit = "thrust, N, and body rates, rad/s" if loop.sampled.interface == "rates" else "N"
+        records = [observing.RECORD] * self.observes + [part.record for part in (self.finding,) if part is not None]
+        fields = (
+            Field("rotors", len(loop.vehicle.rotor_spins), "modelled forces of the rotors, N"),
+            *map(Field.of, records),
+            Field("commands", _under_way(loop) * width, f"commands in transit, newest first, {unit}"),
+            *[Field.of(part.record) for part in (self.estimator,) if part is not None],
+        )
+        return Record("memory", "What the flight computer remembers.", fields)
 
     @property
     def own(self) -> Record:
@@ -101,19 +115,15 @@ class Parts:
 
 def parts(loop: Loop, believed: Believed | None = None) -> Parts:
     """Return what the board of `loop` consists of, as `believed`, by default the vehicle of `loop` as numbers."""
-    believed = believed or Believed.numbers(loop.vehicle)
-    found = Parts(loop, believed, estimator(loop, believed), delay_estimator(loop, believed), Record("", "", ()))
-    count, width = len(loop.vehicle.rotor_spins), command_width(loop)
-    unit = "thrust, N, and body rates, rad/s" if loop.sampled.interface == "rates" else "N"
-    records = [observing.RECORD] * found.observes + [part.record for part in (found.finding,) if part is not None]
-    fields = [
-        Field("rotors", count, "modelled forces of the rotors, N"),
-        *map(Field.of, records),
-        Field("commands", _under_way(loop) * width, f"commands in transit, newest first, {unit}"),
-    ]
-    if found.estimator is not None:
-        fields.append(Field.of(found.estimator.record))
-    return replace(found, memory=Record("memory", "What the flight computer remembers.", tuple(fields)))
+    believed, plant, computer = believed or Believed.numbers(loop.vehicle), loop.sampled, loop.law.computer
+    finds, estimator, finding = finds_delay(loop), None, None
+    if plant.sensors is not None:
+        estimator = Filter(loop, believed, finds=finds) if filters(plant) else Differences(loop, believed)
+    if finds:
+        left = 0.0 if computer.models_lag else believed.lag / usable_lead(loop.law, loop.vehicle, plant)
+        given = (computer.latency, computer.delay_reach, 1 / plant.rate, left, plant.believed_delay)
+        finding = DelayEstimator(believed, *given)
+    return Parts(loop, believed, estimator, finding)
 
 
 def initial_memory(loop: Loop, rotors: Numbers, estimate: Numbers = None, believed: Believed | None = None) -> Numbers:
@@ -148,27 +158,9 @@ def known_to_computer(plant: Plant) -> Plant:
     )  # fmt: skip
 
 
-def estimator(loop: Loop, believed: Believed) -> Filter | Differences | None:
-    """Return the estimator of `loop`, as `believed`; None for a plant that measures the state itself."""
-    sensors = loop.sampled.sensors
-    if sensors is None:
-        return None
-    return Filter(loop, believed, finds=finds_delay(loop)) if filters(loop.sampled) else Differences(loop, believed)
-
-
 def finds_delay(loop: Loop) -> bool:
     """Whether the board of `loop` finds its delay in flight; not under a rate loop, whose forces it does not know."""
     return loop.law.computer.delay_reach > 0 and loop.sampled.interface != "rates"
-
-
-def delay_estimator(loop: Loop, believed: Believed) -> DelayEstimator | None:
-    """Return what finds delays in `loop`, as `believed`; None if the law has no reach, or the vehicle a rate loop."""
-    if not finds_delay(loop):
-        return None
-    computer, lead = loop.law.computer, usable_lead(loop.law, loop.vehicle, loop.sampled)
-    left = 0.0 if computer.models_lag else believed.lag / lead
-    delay = loop.sampled.believed_delay
-    return DelayEstimator(believed, computer.latency, computer.delay_reach, 1 / loop.sampled.rate, left, delay)
 
 
 def filters(plant: Plant) -> bool:

@@ -6,7 +6,6 @@ root of the force, since f = k Ω²: its k_d, k_z and k_h are `rotor_drag` √k,
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any, Literal
 
@@ -74,16 +73,6 @@ class Air:
     def known(self) -> tuple[AirEffect, ...]:
         """Return the effects whose coefficients are not zero."""
         return tuple(name for name in AIR if np.any(getattr(self, name)))
-
-
-def air_from(value: Any) -> Air | None:
-    """Return `value`, an Air, its fields as a dict, or None. Raises InputError if it is none of these."""
-    if value is None or isinstance(value, Air):
-        return value
-    if not isinstance(value, Mapping):
-        raise errors.InputError("air", "an Air, or its fields as a dict", repr(value))
-    errors.only_known("air", value, AIR)
-    return Air(**value)
 
 
 def air_wrench(

@@ -6,9 +6,8 @@ rotor discs or arms. In a `cup` on top it stands loosely: it is lost beyond the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import MISSING, asdict, dataclass, fields
-from typing import Any, Literal
+from dataclasses import asdict, dataclass, fields
+from typing import Literal
 
 import numpy as np
 
@@ -58,17 +57,3 @@ class Body:
     def to_dict(self) -> dict[str, float]:
         """Return the fields as numbers, as in a vehicle TOML file."""
         return asdict(self)
-
-
-def body_from(value: Any) -> Body | None:
-    """Return `value`, a Body, its fields as a dict, or None. Raises InputError if it is none of these."""
-    if value is None or isinstance(value, Body):
-        return value
-    if not isinstance(value, Mapping):
-        raise errors.InputError("body", "a Body, or its fields as a dict", repr(value))
-    errors.only_known("body", value, [entry.name for entry in fields(Body)])
-    needed = [entry.name for entry in fields(Body) if entry.default is MISSING]
-    for name in needed:
-        if name not in value:
-            raise errors.InputError(f"body.{name}", f"{', '.join(needed)}, lengths in m", f"no {name}")
-    return Body(**value)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Self
@@ -15,9 +15,9 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.toml import read_toml
 from flypend.geometry import Matrix, Numbers, Vector
-from flypend.model.air import Air, air_from
+from flypend.model.air import Air
 from flypend.model.bands import bands_from
-from flypend.model.body import MOUNTS, Body, MountKind, body_from
+from flypend.model.body import MOUNTS, Body, MountKind
 from flypend.model.estimate import Measured, guess
 from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
@@ -124,17 +124,11 @@ class Vehicle:
                 value.setflags(write=False)
             object.__setattr__(self, name, value)
 
-        for name, unit in (("mass", "kg"), ("bob_mass", "kg"), ("rod_length", "m"), ("drag_ratio", "m")):
-            put(name, errors.number(name, getattr(self, name), above=0, unit=unit))
-        put("rod_inertia", errors.number("rod_inertia", self.rod_inertia, at_least=0, unit="kg m²"))
+        for name, bounds in _NUMBERS.items():
+            put(name, errors.number(name, getattr(self, name), **bounds))
         if self.rod_end is not None:
             put("rod_end", errors.number("rod_end", self.rod_end, at_least=self.rod_length, unit="m"))
-        put("gravity", errors.number("gravity", self.gravity, at_least=0, unit="m/s²"))
-        put("pivot_damping", errors.number("pivot_damping", self.pivot_damping, at_least=0, unit="N m s"))
-        put("pivot_friction", errors.number("pivot_friction", self.pivot_friction, at_least=0, unit="N m"))
-        put("rod_spin", errors.number("rod_spin", self.rod_spin, unit="rad/s"))
-        put("rod_spin_inertia", self._spin_inertia())
-        put("rotor_lag", errors.number("rotor_lag", self.rotor_lag, at_least=0, unit="s"))
+        self._check_spin()
         put("inertia", _inertia(self.inertia))
         put("rotor_positions", errors.array("rotor_positions", self.rotor_positions, (None, 3)))
         put("rotor_spins", errors.array("rotor_spins", self.rotor_spins, (len(self.rotor_positions),)))
@@ -144,10 +138,9 @@ class Vehicle:
         if not 0 <= self.rotor_limits[0] < self.rotor_limits[1]:
             raise InputError("rotor_limits", "0 <= least < largest force in N", self.rotor_limits.tolist())
         errors.one_of("mount", self.mount, MOUNTS)
-        put("body", body_from(self.body))
+        put("body", _record(Body, "body", self.body, "a Body"))
         put("pivot_offset", errors.array("pivot_offset", self.pivot_offset, (3,)))
-        put("air", air_from(self.air))
-        put("thrust_scale", errors.number("thrust_scale", self.thrust_scale, above=0))
+        put("air", _record(Air, "air", self.air, "an Air"))
         put("bands", bands_from(self.bands))
         if self.mount != "gimbal" and self.body is None:
             raise InputError("body", f"the radii of the machine's parts, for the mount {self.mount!r}", "nothing")
@@ -156,14 +149,13 @@ class Vehicle:
             raise InputError("rotor_positions", "rotors that produce every thrust and moment", f"mixing of rank {rank}")
         check_plausible(self)
 
-    def _spin_inertia(self) -> float:
-        inertia = errors.number("rod_spin_inertia", self.rod_spin_inertia, at_least=0, unit="kg m²")
+    def _check_spin(self) -> None:
+        inertia = self.rod_spin_inertia
         if inertia > 2 * self.rod_inertia * (1 + 1e-9):
             told = f"{inertia:g} with rod_inertia {self.rod_inertia:g}"
             raise InputError("rod_spin_inertia", "at most twice rod_inertia, as in every solid body", told)
         if self.rod_spin and not inertia:
             raise InputError("rod_spin_inertia", "a number > 0 for a rod that spins", "0")
-        return inertia
 
     @property
     def free_joint(self) -> bool:
@@ -335,10 +327,7 @@ class Vehicle:
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
         """Build a vehicle from the parsed TOML `values`. Raises InputError with field names prefixed by `field`."""
-        errors.only_known(field, values, _FIELDS)
-        for name in _REQUIRED:
-            if name not in values:
-                raise InputError(f"{field}.{name}", errors.documentation_of(cls, name), "nothing")
+        _check_fields(cls, field, values)
         try:
             return cls(**values)
         except InputError as error:
@@ -394,9 +383,36 @@ class Vehicle:
 
 
 _FIELDS = tuple(field.name for field in fields(Vehicle))
-_REQUIRED = (
-    "mass", "bob_mass", "rod_length", "inertia", "rotor_positions", "rotor_spins", "drag_ratio", "rotor_limits"
-)  # fmt: skip
+# Fields that are one number, with bounds and units.
+_NUMBERS: dict[str, dict[str, Any]] = {
+    "mass": {"above": 0, "unit": "kg"}, "bob_mass": {"above": 0, "unit": "kg"}, "rod_length": {"above": 0, "unit": "m"},
+    "drag_ratio": {"above": 0, "unit": "m"}, "rod_inertia": {"at_least": 0, "unit": "kg m²"},
+    "gravity": {"at_least": 0, "unit": "m/s²"}, "pivot_damping": {"at_least": 0, "unit": "N m s"},
+    "pivot_friction": {"at_least": 0, "unit": "N m"}, "rod_spin": {"unit": "rad/s"},
+    "rod_spin_inertia": {"at_least": 0, "unit": "kg m²"}, "rotor_lag": {"at_least": 0, "unit": "s"},
+    "thrust_scale": {"above": 0},
+}  # fmt: skip
+
+
+def _check_fields(kind: type[Any], field: str, values: Mapping[str, Any]) -> None:
+    """Raise InputError unless `values` are fields of the record `kind`, among them all without a default."""
+    errors.only_known(field, values, [entry.name for entry in fields(kind)])
+    for entry in fields(kind):
+        if entry.default is MISSING and entry.name not in values:
+            raise InputError(f"{field}.{entry.name}", errors.documentation_of(kind, entry.name), "nothing")
+
+
+def _record(kind: type[Any], field: str, value: Any, called: str) -> Any:
+    """Return `value`, a record of this `kind`, its fields as a dict, or None. Raises InputError if it is none of them.
+
+    In messages the record is `called` so.
+    """
+    if value is None or isinstance(value, kind):
+        return value
+    if not isinstance(value, Mapping):
+        raise InputError(field, f"{called}, or its fields as a dict", repr(value))
+    _check_fields(kind, field, value)
+    return kind(**value)
 
 
 def _plain(value: Any) -> Any:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.model import Vehicle
-from flypend.model.air import AIR
+from flypend.model.air import AIR, AirEffect
 from flypend.model.joint import stiffness
 from flypend.model.state import E3Direction
 from flypend.plants.noise import Noise
@@ -74,10 +74,9 @@ class Wind:
     def __post_init__(self) -> None:
         for name in ("on_vehicle", "on_bob"):
             object.__setattr__(self, name, tuple(errors.array(f"wind.{name}", getattr(self, name), (3,)).tolist()))
-        for name in ("gust_on_vehicle", "gust_on_bob"):
-            errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N")
-        for name in ("knock_on_vehicle", "knock_on_bob"):
-            errors.number(f"wind.{name}", getattr(self, name), at_least=0, unit="N s")
+        for on in ("on_vehicle", "on_bob"):
+            errors.number(f"wind.gust_{on}", getattr(self, f"gust_{on}"), at_least=0, unit="N")
+            errors.number(f"wind.knock_{on}", getattr(self, f"knock_{on}"), at_least=0, unit="N s")
         for name in ("gust_time", "knock_period"):
             errors.number(f"wind.{name}", getattr(self, name), above=0, unit="s")
 
@@ -92,6 +91,17 @@ class Wind:
         return self.knocks or max(self.gust_on_vehicle, self.gust_on_bob) > 0
 
 
+# Numbers of `Sampled`, with bounds and units; those that may be None; and the kinds of other fields.
+# A prediction takes 100 ticks or more at the highest rate.
+_NUMBERS: dict[str, dict[str, Any]] = {
+    "rate": {"at_least": LEAST_RATE, "at_most": 1e4, "unit": "Hz"},
+    "rate_loop_rate": {"at_least": LEAST_RATE, "at_most": 1e5, "unit": "Hz"},
+    "rate_loop_gain": {"above": 0, "unit": "1/s"}, "lag": {"at_least": 0, "unit": "s"}, "spin_up": {"above": 0},
+    "sag": {"at_least": 0, "at_most": MOST_SAG}, "ground": {"unit": "m"}, "floor": {"unit": "m"},
+    "pivot_damping": {"at_least": 0, "unit": "N m s"}, "pivot_friction": {"at_least": 0, "unit": "N m"},
+    "rod_spin": {"unit": "rad/s"},
+}  # fmt: skip
+_OPTIONAL = ("lag", "ground", "floor")
 _KINDS: tuple[tuple[str, Any, str], ...] = (
     ("limits", bool, "true or false"),
     ("noise", Noise | None, "a Noise or None"),
@@ -130,7 +140,8 @@ class Ideal:
     floor: float | None = None
 
     def __post_init__(self) -> None:
-        _check_height("floor", self.floor)
+        if self.floor is not None:
+            errors.number("plant.floor", self.floor, unit="m")
         for name in ("limits", "lag"):
             if not isinstance(getattr(self, name), bool):
                 raise InputError(f"plant.{name}", "true or false", repr(getattr(self, name)))
@@ -250,23 +261,13 @@ class Sampled:
     def __post_init__(self) -> None:
         errors.one_of("plant.engine", self.engine, ("equations", "mujoco"))
         errors.one_of("plant.interface", self.interface, ("wrench", "rates"))
-        # A prediction takes 100 ticks or more at the highest rate.
-        errors.number("plant.rate", self.rate, above=0, at_most=1e4, unit="Hz")
+        for name, bounds in _NUMBERS.items():
+            if (value := getattr(self, name)) is not None or name not in _OPTIONAL:
+                errors.number(f"plant.{name}", value, **bounds)
         longest = min(LONGEST_DELAY, MOST_IN_TRANSIT / self.rate)
         errors.number("plant.delay", self.delay, at_least=0, at_most=longest, unit="s")
-        errors.number("plant.rate_loop_rate", self.rate_loop_rate, above=0, at_most=1e5, unit="Hz")
-        for name in ("rate", "rate_loop_rate"):
-            if getattr(self, name) < LEAST_RATE:
-                raise InputError(f"plant.{name}", f"at least {LEAST_RATE:g} Hz", f"{getattr(self, name):g}")
-        errors.number("plant.rate_loop_gain", self.rate_loop_gain, above=0, unit="1/s")
-        if self.lag is not None:
-            errors.number("plant.lag", self.lag, at_least=0, unit="s")
-        errors.number("plant.spin_up", self.spin_up, above=0)
-        errors.number("plant.sag", self.sag, at_least=0, at_most=MOST_SAG)
         object.__setattr__(self, "strength", _strength(self.strength))
         object.__setattr__(self, "air", _effects(self.air))
-        _check_height("ground", self.ground)
-        _check_height("floor", self.floor)
         for name, kind, expected in _KINDS:
             if not isinstance(value := getattr(self, name), kind):
                 raise InputError(f"plant.{name}", expected, repr(value))
@@ -277,9 +278,6 @@ class Sampled:
         for name in ("pivot_offset", "centre_of_mass"):
             offset = errors.array(f"plant.{name}", getattr(self, name), (3,))
             object.__setattr__(self, name, tuple(offset.tolist()))
-        errors.number("plant.pivot_damping", self.pivot_damping, at_least=0, unit="N m s")
-        errors.number("plant.pivot_friction", self.pivot_friction, at_least=0, unit="N m")
-        errors.number("plant.rod_spin", self.rod_spin, unit="rad/s")
         errors.only_known("plant.mismatch", self.mismatch, MISMATCHED)
         for name, factor in self.mismatch.items():
             errors.number(f"plant.mismatch.{name}", factor, above=0)
@@ -324,7 +322,7 @@ class Sampled:
 
     def effects(self, vehicle: Vehicle) -> tuple[Any, ...]:
         """Return the forces of the air that act on `vehicle`, of `flypend.model.air.AIR`."""
-        known = () if vehicle.air is None else vehicle.air.known()
+        known = _known(vehicle)
         return known if self.air == ("all",) else tuple(name for name in AIR if name in self.air)
 
     def in_air(self, vehicle: Vehicle) -> bool:
@@ -335,7 +333,7 @@ class Sampled:
         n, strengths = len(vehicle.rotor_spins), np.size(self.strength)
         if strengths not in (1, n):
             raise InputError("plant.strength", f"a number, or one for each of {n} rotors", f"{strengths} numbers")
-        known = () if vehicle.air is None else vehicle.air.known()
+        known = _known(vehicle)
         for name in self.air:
             if name not in known and (name != "all" or not known):
                 wanted = "coefficients of the air" if name == "all" else f"a coefficient {name!r} > 0"
@@ -351,9 +349,9 @@ class Sampled:
         return replace(self, **changes)
 
 
-def _check_height(name: str, value: Any) -> None:
-    if value is not None:
-        errors.number(f"plant.{name}", value, unit="m")
+def _known(vehicle: Vehicle) -> tuple[AirEffect, ...]:
+    """Return the forces of the air whose coefficients `vehicle` has."""
+    return () if vehicle.air is None else vehicle.air.known()
 
 
 def _strength(value: Any) -> float | tuple[float, ...]:

@@ -427,6 +427,17 @@ def test_a_fixed_vector_may_meet_a_casadi_batch():
         close(got, function(values, geo.E3))
 
 
+def test_clip_is_that_of_numpy_for_arrays_and_expressions():
+    value, low, high = np.random.default_rng(3).standard_normal((3, 20))
+    symbols = [ca.SX.sym(name, 20) for name in "vlh"]
+    expected = np.minimum(np.maximum(value, low), high)
+    np.testing.assert_array_equal(geo.clip(value, low, high), expected)
+    np.testing.assert_array_equal(
+        ca.Function("f", symbols, [geo.clip(*symbols)])(value, low, high).full()[:, 0], expected
+    )
+    np.testing.assert_array_equal(geo.clip(value, -0.5, 0.5), np.clip(value, -0.5, 0.5))
+
+
 def test_casadi_turns_a_quaternion_into_the_matrix_of_numpy():
     q, given = ca.SX.sym("q", 4), np.array([0.3, -0.8, 0.1, 1.7])
     close(ca.Function("f", [q], [geo.rotation_from_quat_xyzw(q)])(given).full(), geo.rotation_from_quat_xyzw(given))

@@ -67,6 +67,13 @@ def _sqrt(value: Scalar) -> Scalar:
     return ca.sqrt(value) if is_symbolic(value) else np.sqrt(value)
 
 
+def clip(value: Numbers, low: Numbers, high: Numbers) -> Numbers:
+    """`value` within `low` and `high`, entry by entry."""
+    if any(map(is_symbolic, (value, low, high))):
+        return ca.fmin(ca.fmax(value, low), high)
+    return np.minimum(np.maximum(value, low), high)
+
+
 def dot(a: Vector, b: Vector) -> Scalar:
     """Inner product ⟨a, b⟩ over the last axis, with the batch shape (in CasADi a scalar or a (B, 1) column)."""
     (a1, a2, a3), (b1, b2, b3) = _components(a), _components(b)

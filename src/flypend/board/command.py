@@ -10,7 +10,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar
+from flypend.geometry import Numbers, Scalar, clip
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.closed_loop import check_parameters
 from flypend.model import State, Vehicle
@@ -132,7 +132,7 @@ def to_command(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers,
     lead = usable_lead(loop.law, loop.vehicle, plant)
     command = lead_rotors(rotor_forces(thrust, moment, vehicle, plant.limits), rotors, lead)
     if plant.limits:
-        command = ca.fmin(ca.fmax(command, vehicle.rotor_limits[0]), vehicle.rotor_limits[1])
+        command = clip(command, vehicle.rotor_limits[0], vehicle.rotor_limits[1])
     return ca.if_else(ca.norm_1(wrench) < np.inf, command, np.nan)
 
 

@@ -25,7 +25,7 @@ from flypend.board import trim as trimming
 from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar
+from flypend.geometry import Numbers, Scalar, clip
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE
@@ -68,13 +68,7 @@ class DelayEstimator:
     """
 
     def __init__(
-        self,
-        believed: Believed,
-        told: float,
-        reach: float,
-        period: float,
-        lag_left: float = 0.0,
-        assumed: float = 0.0,
+        self, believed: Believed, told: float, reach: float, period: float, lag_left: float = 0.0, assumed: float = 0.0
     ) -> None:
         self._assumed = max(assumed, LEAST * period)
         self._lag_left = lag_left
@@ -145,7 +139,7 @@ class DelayEstimator:
         found = delay + h * moves
         sure = h * gain * information / (1 + (moves / SETTLED) ** 2)
         trim = trimming.follow_strength(trim, lacking, model, thrust, sure, b.vehicle)
-        found = ca.fmin(ca.fmax(found, LEAST * h), self._longest)
+        found = clip(found, LEAST * h, self._longest)
         phase, past = self._age(phase, entries)
         kept = self.record.join({
             "begun": 1, "phase": phase, "found": found, "trim": trim, "information": information, "omega": omega,
@@ -174,11 +168,8 @@ class DelayEstimator:
         Their delay is the one found, as far as the past tells it, and else the one assumed: `told` is in the middle of
         what a predictor survives, and of forces one knows better.
         """
-        b, memory, rotors = (
-            self._believed,
-            ca.SX.sym("memory", self.record.length),
-            ca.SX.sym("r", self._believed.rotors),
-        )
+        b, memory = self._believed, ca.SX.sym("memory", self.record.length)
+        rotors = ca.SX.sym("r", b.rotors)
         parts = self.record.split(memory)
         share = parts["information"] / (parts["information"] + DOUBT * angular_authority(b.vehicle) ** 2)
         at, _ = self.weights(self._assumed + share * (parts["found"] - self._assumed), parts["phase"])
@@ -225,7 +216,7 @@ class DelayEstimator:
         newest, end = phase / self._stride, age / self._spacing  # in units of the spacing, as is what follows
         for i in range(self.depth):
             begin, length = (i - 1, 1) if i else (-newest, newest)  # of this interval, ages since the newest
-            share = ca.fmin(ca.fmax((end - newest - begin) / length, 0), 1)  # of it that is younger than `age`
+            share = clip((end - newest - begin) / length, 0, 1)  # of it that is younger than `age`
             half = share**2 / 2
             at[i], at[i + 1] = at[i] - share, share
             over[i], over[i + 1] = over[i] + length * (share - half), length * half

@@ -30,7 +30,7 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, dot, hat, polar_step, tangent_part, unit
+from flypend.geometry import Matrix, Numbers, Scalar, Vector, clip, cross, dot, hat, polar_step, tangent_part, unit
 from flypend.model import State, Vehicle
 from flypend.model.momenta import lever
 from flypend.plants.cascade import rotation_by
@@ -133,7 +133,7 @@ def update(
             gain = (fresh - gate * off) * seen / expected
             error, learnt = error + share * gain * left, apart * (gain @ seen.T)
             P = unpack(pack(P - learnt))
-        after.append(ca.fmin(ca.fmax(rejected + arrived * (2 * far - 1), 0), 2 * PATIENCE))
+        after.append(clip(rejected + arrived * (2 * far - 1), 0, 2 * PATIENCE))
     return error, P, ca.vertcat(*after)
 
 

@@ -29,6 +29,7 @@ from flypend.geometry import (
     Scalar,
     Vector,
     any_tangent,
+    clip,
     dot,
     parallel_transport,
     shortened,
@@ -185,7 +186,7 @@ class Filter:
             scale = _scale(outside[:3], thrust, s.z, vehicle)
             outside = outside - ca.vertcat(scale * thrust * s.z, np.zeros(3))
         most = error_state.MOST_PULL
-        pull = ca.fmin(ca.fmax(parts["pull"] + error[error_state.PULL], -most), most)
+        pull = clip(parts["pull"] + error[error_state.PULL], -most, most)
         parts |= {
             "state": s.packed(), "frame": b, "force": force, "difference": difference, "bias": bias, "pull": pull,
             "rejections": rejections, "turned": ca.vec((turn @ known).T), "covariance": error_state.pack(P),
@@ -217,7 +218,7 @@ class Filter:
         variance = doubt * dot(rate, rate) + self.sensors.attitude.variance + ca.trace(P) / 3
         near = dot(turn, turn) < error_state.GATE**2 * variance  # another body tells nothing
         gain = settled * expected.fresh("attitude") * near * doubt / variance
-        parts["late"] = ca.fmin(ca.fmax(parts["late"] - gain * dot(rate, turn), 0), REACH)
+        parts["late"] = clip(parts["late"] - gain * dot(rate, turn), 0, REACH)
         parts["late_doubt"] = doubt * (1 - gain * dot(rate, rate))
 
     def _felt(self, parts: dict[str, Any], R: Matrix) -> Vector:
@@ -336,7 +337,7 @@ def _scale(force: Vector, thrust: Scalar, z: Vector, vehicle: Vehicle) -> Scalar
     Hardly any where the thrust is below LEAST_THRUST, where a force is not told from a scale.
     """
     scale = dot(force, z) * thrust / (thrust**2 + (LEAST_THRUST * vehicle.weight) ** 2)
-    return ca.fmin(ca.fmax(scale, -felt.MOST_SCALE), felt.MOST_SCALE)
+    return clip(scale, -felt.MOST_SCALE, felt.MOST_SCALE)
 
 
 def _lasting(

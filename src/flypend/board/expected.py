@@ -42,16 +42,9 @@ class Expected:
     """
 
     def __init__(
-        self,
-        sensors: Sensors,
-        history: History,
-        readings: Numbers,
-        state: State,
-        b: Vector,
-        turned: Matrix,
-        past: Numbers,
-        late: Scalar = 0.0,
-    ) -> None:
+        self, sensors: Sensors, history: History, readings: Numbers, state: State, b: Vector, turned: Matrix,
+        past: Numbers, late: Scalar = 0.0,
+    ) -> None:  # fmt: skip
         self._sensors, self._history = sensors, history
         self._s, self._b, self._turned, self._past = state, b, turned, history.split(past)
         self._read = readings_record(sensors).split(readings)

@@ -21,7 +21,7 @@ from typing import Any
 import casadi as ca
 
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar, Vector, dot, scale
+from flypend.geometry import Numbers, Scalar, Vector, clip, dot, scale
 from flypend.model import Vehicle
 from flypend.plants.sensors import Sensors
 
@@ -76,7 +76,7 @@ def correct_bias(memory: Numbers, correction: Vector, taken: Vector | float = 0.
     `taken` (3,), body, N, is the force that it had been taken for, which goes.
     """
     felt = RECORD.split(memory)
-    bias = ca.fmin(ca.fmax(felt["bias"] + correction, -MOST_BIAS), MOST_BIAS)
+    bias = clip(felt["bias"] + correction, -MOST_BIAS, MOST_BIAS)
     return RECORD.join(felt | {"bias": bias, "force": felt["force"] - taken})
 
 
@@ -121,7 +121,7 @@ def correct(
     return RECORD.join({
         "force": felt["force"] + ca.vertcat(gain * difference[:2], gain_along * difference[2]),
         "bias": felt["bias"],
-        "scale": ca.fmin(ca.fmax(scale, -MOST_SCALE), MOST_SCALE),
+        "scale": clip(scale, -MOST_SCALE, MOST_SCALE),
         "across": (1 - gain) * across,
         "along": along - gain_along * seen,
         "doubt": doubt - gain_scale * seen_by_scale,

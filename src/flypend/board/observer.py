@@ -14,7 +14,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, Numbers, Scalar, Vector, cross, shortened
+from flypend.geometry import E3, Numbers, Scalar, Vector, clip, cross, shortened
 from flypend.laws import Computer
 from flypend.model import State, linear_momentum
 from flypend.model.momenta import pull_on_rod, split_force
@@ -137,4 +137,4 @@ def _learn(
         "product": kept * told["product"] + share * ca.dot(off, beside),
     }
     scale = after["product"] / (after["square"] + DOUBT / period * weight**2)
-    return TOLD.join(after), ca.fmin(ca.fmax(scale, -MOST), MOST)
+    return TOLD.join(after), clip(scale, -MOST, MOST)

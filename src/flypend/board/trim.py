@@ -19,7 +19,7 @@ import numpy as np
 
 from flypend.board.believed import Believed
 from flypend.compile.record import Field, Record
-from flypend.geometry import Numbers, Scalar, Vector
+from flypend.geometry import Numbers, Scalar, Vector, clip
 from flypend.laws.inverted_gains import angular_authority
 from flypend.plants.actuation import rotor_forces
 
@@ -76,7 +76,7 @@ def follow_lever(
     weighed = np.exp(-period / FORGETTING) * trim["weighed"] + share * period * thrust**2
     gain = share * period * thrust / (weighed + DOUBT * vehicle.weight**2)
     most = MOST * authority * vehicle.I[0, 0] / vehicle.weight
-    lever = ca.fmin(ca.fmax(trim["lever"] + gain * lacking, -most), most)
+    lever = clip(trim["lever"] + gain * lacking, -most, most)
     return RECORD.join(trim | {"lever": lever, "weighed": weighed})
 
 
@@ -96,7 +96,7 @@ def follow_strength(
     goes = 1 / (sums["ff"] + 1e-9 * vehicle.weight**2) * sums["fp"]  # with the thrust; there is none yet at first
     told = sums["pp"] - ca.dot(goes, sums["fp"])
     strength = (sums["pq"] - ca.dot(goes, sums["fq"])) / (told + DOUBTED * largest)
-    strength = ca.fmin(ca.fmax(strength, -MOST_STRENGTH), MOST_STRENGTH)
+    strength = clip(strength, -MOST_STRENGTH, MOST_STRENGTH)
     return RECORD.join(trim | {"strength": strength, "sums": SUMS.join(sums)})
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Numbers, Scalar, Vector
+from flypend.geometry import Numbers, Scalar, Vector, clip
 from flypend.model import Vehicle
 
 
@@ -51,11 +51,7 @@ def allocate(thrust: Scalar, moment: Vector, vehicle: Vehicle) -> Numbers:
         scaled |= {i: factor * asked[i] for i in members}
         reach[spin] = (low - factor * least, high - factor * most)
     (a_low, a_high), (b_low, b_high) = reach[1], reach[-1]
-    mean = _clip(thrust / n, (a_low + b_low) / 2, (a_high + b_high) / 2)
-    q = _clip(yawing * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low))
+    mean = clip(thrust / n, (a_low + b_low) / 2, (a_high + b_high) / 2)
+    q = clip(yawing * moment[2], ca.fmax(a_low - mean, mean - b_high), ca.fmin(a_high - mean, mean - b_low))
     forces = ca.vertcat(*(scaled[i] + mean + spins[i] * q for i in range(n)))
-    return _clip(forces, low, high)  # guards against roundoff
-
-
-def _clip(value: Any, low: Numbers, high: Any) -> Numbers:
-    return ca.fmin(ca.fmax(value, low), high)
+    return clip(forces, low, high)  # guards against roundoff

@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Numbers, Scalar, Vector, apply, cross, is_symbolic, transpose
+from flypend.geometry import Numbers, Scalar, Vector, apply, clip, cross, is_symbolic, transpose
 from flypend.model.body import Body
 from flypend.model.dynamics import rod_tension
 from flypend.model.state import FLIP, E3Direction, State, Wrench
@@ -144,14 +144,14 @@ def _to_disc(rod: Vector, centre: Vector, length: float, body: Body) -> Scalar:
     after = (leaving * u[2] - c[2]) * u[2] <= 0
     low = _where(meets, _where(before, first, _where(after, leaving, entry)), first)
     high = _where(meets, _where(before, entry, _where(after, last, leaving)), last)
-    low, high = _clip(low, first, last), _clip(high, first, last)
+    low, high = clip(low, first, last), clip(high, first, last)
     flat = _both(u[2] < 1e-12, u[2] > -1e-12)
-    crossing = _clip(_where(flat, entry, c[2] / _where(flat, 1.0, u[2])), first, last)
-    s = _where(meets, _where(before, high, _where(after, low, crossing)), _clip(_inner(rod, c), first, last))
+    crossing = clip(_where(flat, entry, c[2] / _where(flat, 1.0, u[2])), first, last)
+    s = _where(meets, _where(before, high, _where(after, low, crossing)), clip(_inner(rod, c), first, last))
     for _ in range(ITERATIONS):
         slope, curvature = _slope(s, u, c, body.disc_radius)
         low, high = _where(slope < 0, s, low), _where(slope < 0, high, s)
-        s = _clip(s - slope / _most(curvature, 1e-12), low, high)
+        s = clip(s - slope / _most(curvature, 1e-12), low, high)
     from_axis = _sqrt((s * u[0] - c[0]) ** 2 + (s * u[1] - c[1]) ** 2)
     beyond, above = from_axis - body.disc_radius, s * u[2] - c[2]
     distance = _sqrt(_most(beyond, 0.0) ** 2 + above**2)
@@ -180,10 +180,6 @@ def _slope(s: Scalar, u: Vector, c: Vector, radius: float) -> tuple[Scalar, Scal
 
 def _inner(rod: Vector, fixed: Vector) -> Scalar:
     return sum((rod[i] if is_symbolic(rod) else rod[..., i]) * fixed[i] for i in range(3))
-
-
-def _clip(value: Scalar, low: Numbers, high: Scalar) -> Scalar:
-    return _least(_most(value, low), high)
 
 
 def _most(a: Scalar, b: Scalar) -> Scalar:

@@ -154,16 +154,9 @@ class Defects:
     """
 
     def __init__(
-        self,
-        sensors: Sensors,
-        period: float,
-        t: Scalar,
-        y_before: Vector,
-        y: Vector,
-        memory: Numbers,
-        draws: Mapping[str, Any],
-        numbers: Numbers,
-    ) -> None:
+        self, sensors: Sensors, period: float, t: Scalar, y_before: Vector, y: Vector, memory: Numbers,
+        draws: Mapping[str, Any], numbers: Numbers,
+    ) -> None:  # fmt: skip
         self._sensors, self._period, self._t, self._y, self._draws = sensors, period, t, y, draws
         self.memory = record(sensors).split(memory)
         lengths = [len(some) for some in sizes(sensors, period).values()]

@@ -10,7 +10,7 @@ from dataclasses import astuple, fields
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Numbers, Scalar, Vector, tangent_part, unit
+from flypend.geometry import Numbers, Scalar, Vector, clip, tangent_part, unit
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
@@ -127,7 +127,7 @@ def normal_quantile(probability: Scalar) -> Scalar:
 
     From `LEAST_PROBABILITY` on, to 16 digits; below it is that of none, −1000.
     """
-    p = ca.fmin(ca.fmax(probability, LEAST_PROBABILITY), 1 - LEAST_PROBABILITY)
+    p = clip(probability, LEAST_PROBABILITY, 1 - LEAST_PROBABILITY)
     q = p - 0.5
     middle = q * _ratio(_MIDDLE, 0.425**2 - q**2)
     tail = _ratio(_TAIL, ca.sqrt(-ca.log(ca.fmin(p, 1 - p))) - 1.6)

@@ -354,7 +354,7 @@ def test_the_estimator_is_told_of_no_defect():
     from flypend.board.believed import Believed
 
     def programs(sensors):
-        made = Filter(Loop(VEHICLE, LAW.bind(VEHICLE), Plant(sensors=sensors)), Believed.numbers(VEHICLE))
+        made = Filter(Loop(VEHICLE, LAW.bind(VEHICLE), Plant(sensors=sensors)), Believed(VEHICLE))
         return [f.serialize() for f in (made.begin(), made.correct(), made.carry())]
 
     worst = EVERY.replace(**ONE)

@@ -19,28 +19,20 @@ class Believed:
     Parameters
     ----------
     vehicle : Vehicle
-        A vehicle, or an object with the same attributes as symbols.
-    rotors : int
-        Number of its rotors.
-    lag : float
-        Time constant of its rotors, s. Always a number: no generated code evaluates an exponential at run time.
+        A vehicle, whose parameters are constants of the equations, or an object with the same attributes as symbols.
+        The lag of its rotors is always a number: no generated code evaluates an exponential at run time.
     symbols : SX (k, 1)
         The symbols of `vehicle`; empty for a numeric vehicle.
     """
 
     vehicle: Any
-    rotors: int
-    lag: float
     symbols: Numbers = field(default_factory=lambda: ca.SX(0, 1))
 
-    @classmethod
-    def numbers(cls, vehicle: Vehicle) -> Believed:
-        """The nominal `vehicle` with its parameters as constants of the equations."""
-        return cls(vehicle, len(vehicle.rotor_spins), vehicle.rotor_lag)
+    rotors = property(lambda self: len(self.vehicle.rotor_spins), doc="Number of rotors.")
+    lag = property(lambda self: self.vehicle.rotor_lag, doc="Time constant of the rotors, s.")
 
     @classmethod
     def limited(cls, vehicle: Vehicle) -> Believed:
         """The nominal `vehicle` with its parameters as constants, and symbols for least and largest rotor force, N."""
         limits = ca.SX.sym("limits", 2)
-        limited = Altered(vehicle, rotor_limits=(limits[0], limits[1]))
-        return cls(limited, len(vehicle.rotor_spins), vehicle.rotor_lag, limits)
+        return cls(Altered(vehicle, rotor_limits=(limits[0], limits[1])), limits)

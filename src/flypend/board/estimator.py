@@ -9,6 +9,7 @@ attitude and velocities again and again is put down to biases of gyroscope and a
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import casadi as ca
@@ -74,7 +75,6 @@ class Filter:
         self.period = 1 / loop.sampled.rate
         self.history = History.of(self.sensors, self.period)
         self._loop, self._believed, self._finds = loop, believed, finds
-        self.record = self._record()
 
     @property
     def feels(self) -> bool:
@@ -86,14 +86,12 @@ class Filter:
         """The streams whose readings are compared with what is expected before they are believed."""
         return tuple(name for name in self.sensors.streams if name in GATED)
 
-    def _record(self) -> Record:
-        """Return the table of the memory."""
-        sensed = [Field.of(felt.RECORD)]
+    @cached_property
+    def record(self) -> Record:
+        """Table of the memory."""
+        late = [Field("late", 0, "how much older poses are than told, s")]
+        late += [Field("late_doubt", 0, "variance of that, s^2")]
         turned = [Field("turned", 9, "product of all corrections of the attitude, world, by rows")]
-        late = [
-            Field("late", 0, "how much older poses are than told, s"),
-            Field("late_doubt", 0, "variance of that, s^2"),
-        ]
         past, errors = self.history.record, error_state.PULL.stop
         what = "centre of mass, velocity, attitude, rod and rate, pull on the rod"
         if self.sensors.attitude is None:
@@ -109,7 +107,7 @@ class Filter:
             Field("pull", 0, "nominal over true length of the rod, less 1"),
             Field("rejections", len(self.gated), "of late by each stream of poses and angles, readings"),
             Field("difference", 3, "of the forces that last, F_b/m - F_v/M, across the rod, world, m/s^2"),
-            *sensed * self.feels,
+            *[Field.of(felt.RECORD)] * self.feels,
             *late * finds_latency(self.sensors),
             *turned * bool(self.history.depths["attitude"]),
             Field("covariance", errors * (errors + 1) // 2, f"of the {errors} errors: {what}, lower triangle by rows"),

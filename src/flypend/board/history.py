@@ -21,24 +21,16 @@ from flypend.plants.defects import POSES
 from flypend.plants.schedule import timing
 from flypend.plants.sensors import Sensors
 
-# Numbers per tick of each quantity, and the streams that are compared with it. "x" and "y" are W of pivot and rod,
-# "turning" is ω and "swinging" ẏ less their present values, "attitude" is Gᵀ R by rows, and "force" the specific force
-# expected of the accelerometer at that tick.
-QUANTITIES: Mapping[str, tuple[int, tuple[str, ...]]] = {
-    "x": (3, ("position",)),
-    "y": (3, ("rod", "joints", "rod_gyro")),
-    "turning": (3, ("gyro",)),
-    "swinging": (3, ("rod_gyro",)),
-    "attitude": (9, ("attitude", "joints", "rod_gyro")),
-    "force": (3, ("accelerometer",)),
-}
-_WHAT = {
-    "x": "by how much acceleration has moved the pivot since, m",
-    "y": "the same of the rod",
-    "turning": "omega then less omega now, rad/s",
-    "swinging": "y_dot then less y_dot now, 1/s",
-    "attitude": "R then, without the corrections in `turned`, by rows",
-    "force": "specific force expected of the accelerometer, m/s^2",
+# Numbers per tick of each quantity, the streams that are compared with it, and what it is. "x" and "y" are W of pivot
+# and rod, "turning" is ω and "swinging" ẏ less their present values, "attitude" is Gᵀ R by rows, and "force" the
+# specific force expected of the accelerometer at that tick.
+QUANTITIES: Mapping[str, tuple[int, tuple[str, ...], str]] = {
+    "x": (3, ("position",), "by how much acceleration has moved the pivot since, m"),
+    "y": (3, ("rod", "joints", "rod_gyro"), "the same of the rod"),
+    "turning": (3, ("gyro",), "omega then less omega now, rad/s"),
+    "swinging": (3, ("rod_gyro",), "y_dot then less y_dot now, 1/s"),
+    "attitude": (9, ("attitude", "joints", "rod_gyro"), "R then, without the corrections in `turned`, by rows"),
+    "force": (3, ("accelerometer",), "specific force expected of the accelerometer, m/s^2"),
 }
 
 # How much older than told poses may be, s.
@@ -71,7 +63,7 @@ class History:
         depth = {name: timing(sensor, period).depth for name, sensor in sensors.streams.items()}
         if finds_latency(sensors):
             depth |= {name: depth[name] + int(np.ceil(REACH / period)) for name in POSES if name in depth}
-        found = {name: max(depth.get(stream, 0) for stream in streams) for name, (_, streams) in QUANTITIES.items()}
+        found = {name: max(depth.get(stream, 0) for stream in streams) for name, (_, streams, _) in QUANTITIES.items()}
         found["force"] += "accelerometer" in depth  # that of the period that has just ended
         return cls(found, period)
 
@@ -83,8 +75,8 @@ class History:
     @property
     def record(self) -> Record:
         """Table of the memory."""
-        lengths = {name: depth * QUANTITIES[name][0] for name, depth in self.depths.items()}
-        fields = tuple(Field(name, length, _WHAT[name]) for name, length in lengths.items() if length)
+        kinds = ((name, depth, *QUANTITIES[name]) for name, depth in self.depths.items() if depth)
+        fields = tuple(Field(name, depth * length, what) for name, depth, length, _, what in kinds)
         return Record("past", "The last control periods, newest first.", fields)
 
     def split(self, memory: Numbers) -> dict[str, list[Numbers]]:

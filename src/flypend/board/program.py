@@ -115,7 +115,7 @@ class Parts:
 
 def parts(loop: Loop, believed: Believed | None = None) -> Parts:
     """Return what the board of `loop` consists of, as `believed`, by default the vehicle of `loop` as numbers."""
-    believed, plant, computer = believed or Believed.numbers(loop.vehicle), loop.sampled, loop.law.computer
+    believed, plant, computer = believed or Believed(loop.vehicle), loop.sampled, loop.law.computer
     finds, estimator, finding = finds_delay(loop), None, None
     if plant.sensors is not None:
         estimator = Filter(loop, believed, finds=finds) if filters(plant) else Differences(loop, believed)

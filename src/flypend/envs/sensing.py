@@ -50,7 +50,7 @@ class Estimates:
         if plant.sensors.rates != "estimated":
             raise InputError("sensors.rates", "'estimated'", repr(plant.sensors.rates))
         self._loop, self._vehicle, self._plant = Loop(vehicle, ACTIONS, plant), vehicle, plant
-        self._filter = Filter(self._loop, Believed.numbers(vehicle))
+        self._filter = Filter(self._loop, Believed(vehicle))
         self._correct, self._carry = self._filter.correct(), self._filter.carry()
         width = command_width(self._loop)
         self._under_way = self._carry.numel_in(2) // width - 1

@@ -141,7 +141,7 @@ def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | 
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
     params = ca.SX.sym("params", record.length)
     stand_in = SymbolicVehicle(params, record, vehicle)
-    believed = Believed(stand_in, rotors.length, vehicle.rotor_lag, params)
+    believed = Believed(stand_in, params)
     names, constant, steering = _law(_calmed(loop, sensors), params, stand_in)
     loop = replace(loop, parameters=tuple(names))
     functions = [

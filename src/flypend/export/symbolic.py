@@ -14,7 +14,7 @@ from flypend.model.state import FLIP
 class SymbolicVehicle:
     """A vehicle whose constants are the `symbols` of `records.params_record`, with what equations ask a `Vehicle` for.
 
-    The spins of its rotors are those of `vehicle`.
+    Spins and lag of its rotors are those of `vehicle`.
     """
 
     def __init__(self, symbols: Any, record: Record, vehicle: Vehicle) -> None:
@@ -26,7 +26,7 @@ class SymbolicVehicle:
         self.g = self.gravity = v["gravity"]
         self.I = self.inertia = _inertia(v["inertia"])
         self.rotor_limits = (v["rotor_least"], v["rotor_largest"])
-        self.rotor_spins = vehicle.sharing()[2]
+        self.rotor_spins, self.rotor_lag = vehicle.sharing()[2], vehicle.rotor_lag
         self.weight = (self.M + self.m) * self.g
         self.name = "symbolic"
 

@@ -124,7 +124,7 @@ def board_step(loop: Loop, law: BoundLaw | None = None) -> ca.Function:
     It flies `law`, by default that of `loop`.
     """
     loop = replace(loop, parameters=())
-    believed = Believed.numbers(loop.vehicle)
+    believed = Believed(loop.vehicle)
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
         """Return the wrench of the law from its predicted state and the reference of now."""

@@ -18,13 +18,20 @@ from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.model.plausible import INERTIAS
-from flypend.model.quantity import Quantity, quantity
+from flypend.model.plausible import EARTH, INERTIAS
 from flypend.model.rod import rod_with_bob
 
+Quantity = float | str  # SI, or text with a unit
+# Factors to SI, by what is measured.
+UNITS: dict[str, dict[str, float]] = {
+    "kg": {"g": 1e-3},
+    "m": {"cm": 1e-2, "mm": 1e-3, "in": 0.0254},
+    "N": {"gf": 9.80665e-3, "kgf": 9.80665, "mN": 1e-3},
+    "V": {"mV": 1e-3},
+}
+_TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s]*)\s*")
+MOST_TEXT = 40  # characters of a quantity
 AIR = 1.225  # kg/m³
-INCH = 0.0254
-EARTH = 9.81  # m/s²
 # Scaling laws: middle, and the factor by which a machine may be off either way.
 ROLL, YAW, INERTIA_BAND = 0.25, 0.45, 1.6  # moments of inertia over mass × arm²
 THRUST_COEFFICIENT, THRUST_BAND = 0.12, 1.6  # of propellers at rest, T/(ρ n² D⁴)
@@ -209,7 +216,7 @@ def _propeller(value: Quantity) -> dict[str, Any]:
     if isinstance(value, str) and (inches := SIZE.fullmatch(value.strip())):
         first = int((inches["both"] or "0")[:2])  # "1045" is 10 inches, "0845" 8 and "5045" 5.0
         size = float(inches["inches"] or (first if first < 20 else first / 10))
-        return {"diameter": quantity("propeller", size * INCH, "m", 0.02, 1.0)}
+        return {"diameter": quantity("propeller", size * UNITS["m"]["in"], "m", 0.02, 1.0)}
     try:
         return {"diameter": quantity("propeller", value, "m", 0.02, 1.0)}
     except InputError as error:
@@ -254,6 +261,27 @@ def _volts(battery: Quantity | None) -> float:
     if isinstance(battery, str) and (cells := CELLS.fullmatch(battery.strip())):
         return CELL * errors.number("battery", float(cells[1]), at_least=1, at_most=14, unit="cells")
     return quantity("battery", battery, "V", 2.5, 60)
+
+
+def quantity(field: str, value: Quantity | None, unit: str, low: float, high: float, why: str = "") -> float:
+    """Return `value`, a number in the SI `unit` or text with a unit, "620 g", as a float in SI.
+
+    Raises InputError unless it lies between `low` and `high`; it says `why`, and asks for the unit probably meant.
+    """
+    known = {unit: 1.0, **UNITS[unit]}
+    plain, factor = value, 1.0
+    if isinstance(value, str):
+        found = _TEXT.fullmatch(value[:MOST_TEXT])
+        if not found or (found[2] or unit) not in known:
+            raise InputError(field, f"a number with a unit of {', '.join(known)}, such as {low * 10:g} {unit}", value)
+        plain, factor = float(found[1]), known[found[2] or unit]
+    number = errors.number(field, plain, unit=unit) * factor
+    if low <= number <= high:
+        return number
+    others = [name for name, other in UNITS[unit].items() if factor == 1.0 and low <= number * other <= high]
+    hint = f" ({'; '.join(f'in {name}? write {number:g}{name}' for name in others)})" if others else ""
+    told = f" ({why})" if why else ""
+    raise InputError(field, f"{low:.3g} to {high:.3g} {unit}{told}", f"{number:g} {unit}{hint}")
 
 
 def _about(middle: Any, factor: float) -> Any:

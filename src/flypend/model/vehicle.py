@@ -18,10 +18,9 @@ from flypend.geometry import Matrix, Numbers, Vector
 from flypend.model.air import Air
 from flypend.model.bands import bands_from
 from flypend.model.body import MOUNTS, Body, MountKind
-from flypend.model.estimate import Measured, guess
+from flypend.model.estimate import Measured, Quantity, guess
 from flypend.model.mjcf import model_xml
 from flypend.model.plausible import check_plausible
-from flypend.model.quantity import Quantity
 from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
 from flypend.model.urdf import model_sdf, model_urdf

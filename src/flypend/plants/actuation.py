@@ -17,6 +17,8 @@ from flypend.model.momenta import moment_for
 from flypend.model.state import SIZE
 from flypend.plants.equations import EquationsEngine
 from flypend.plants.motors import moving
+from flypend.plants.mujoco import MujocoEngine, filter_lag, substeps
+from flypend.plants.mujoco_world import motors, step_numbers, surroundings
 from flypend.plants.plant import Plant
 from flypend.plants.schedule import steps_in
 
@@ -52,8 +54,6 @@ class Mujoco:
     """
 
     def __init__(self, vehicle: Vehicle, plant: Plant) -> None:
-        from flypend.plants.mujoco import MujocoEngine, filter_lag
-
         self._vehicle, self._plant, self._lag = vehicle, plant, filter_lag(vehicle)
         self._engine = MujocoEngine(vehicle, lag=self._lag)
         self._motors, self._surroundings = _compile_world(vehicle, moving(plant))
@@ -76,9 +76,6 @@ class Mujoco:
 
     def step(self, command: Numbers, duration: float, wind: Numbers) -> None:
         """Advance by `duration` (s) in equal time steps under commanded forces (n,) and `wind` (6,), N."""
-        from flypend.plants.mujoco import substeps
-        from flypend.plants.mujoco_world import step_numbers
-
         steps = substeps(duration, self._vehicle, self._plant)
         self._engine.model.opt.timestep = duration / steps
         numbers = step_numbers(self._vehicle, self._plant, duration / steps)
@@ -105,8 +102,6 @@ class Mujoco:
 
 @lru_cache(maxsize=64)
 def _compile_world(vehicle: Vehicle, plant: Plant) -> tuple[Any, Any]:
-    from flypend.plants.mujoco_world import motors, surroundings
-
     made = (motors(vehicle, plant), surroundings(vehicle, plant))
     return tuple(None if function is None else as_numpy(function) for function in made)  # type: ignore[return-value]
 

@@ -60,14 +60,11 @@ class Differences:
         x_dot, since_x = differenced("position", s.x, s.x_dot)
         y_dot, since_y = differenced("rod", s.y, s.y_dot)
         y = latest("rod", s.y)
+        R = ca.reshape(latest("attitude", ca.vec(s.R.T)), 3, 3).T
         state = State(
-            x=latest("position", s.x),
-            x_dot=x_dot,
-            R=ca.reshape(latest("attitude", ca.vec(s.R.T)), 3, 3).T,
-            omega=latest("gyro", s.omega),
-            y=y,
+            x=latest("position", s.x), x_dot=x_dot, R=R, omega=latest("gyro", s.omega), y=y,
             y_dot=tangent_part(y, y_dot),
-        ).packed()
+        ).packed()  # fmt: skip
         after = RECORD.join({"state": state, "since_position": since_x, "since_rod": since_y})
         outputs = [ca.densify(v) for v in (after, state, ca.SX(OUTSIDE.length, 1))]
         return ca.Function("correct", [memory, readings, self._params], outputs)

@@ -339,15 +339,9 @@ def _scale(force: Vector, thrust: Scalar, z: Vector, vehicle: Vehicle) -> Scalar
 
 
 def _lasting(
-    total: Vector,
-    difference: Vector,
-    error: Numbers,
-    b: Vector,
-    s: State,
-    vehicle: Vehicle,
-    pace: Scalar,
+    total: Vector, difference: Vector, error: Numbers, b: Vector, s: State, vehicle: Vehicle, pace: Scalar,
     limit: Scalar,
-) -> tuple[Vector, Vector, Numbers]:
+) -> tuple[Vector, Vector, Numbers]:  # fmt: skip
     """Return `total` force and `difference` across the rod, each (3,), corrected, and on vehicle and bob (6,), N.
 
     A velocity that is corrected again and again in one direction is driven by a force: the integral of the corrections.

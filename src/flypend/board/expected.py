@@ -21,24 +21,9 @@ GATED = ("position", "attitude", "rod", "joints", "rod_gyro")
 class Expected:
     """The readings of one control tick beside an estimate, in CasADi.
 
-    Parameters
-    ----------
-    sensors : Sensors
-        What is read.
-    history : History
-        Layout of the past.
-    readings : SX
-        What has arrived, as `plants.sensing` delivers it.
-    state : State
-        The estimate before correction.
-    b : SX (3,)
-        First vector of the rod's frame.
-    turned : SX (3, 3)
-        Product of all corrections of the attitude.
-    past : SX
-        Memory of the past.
-    late : SX
-        How much older poses are than told, s.
+    `readings` are what has arrived of `sensors`, as `plants.sensing` delivers it, and `state` is the estimate before
+    correction, with the first vector `b` (3,) of the rod's frame. `turned` (3, 3) is the product of all corrections of
+    the attitude, and `past` the memory of the past, which `history` lays out. Poses are `late` seconds older than told.
     """
 
     def __init__(

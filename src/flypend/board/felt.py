@@ -81,31 +81,14 @@ def correct_bias(memory: Numbers, correction: Vector, taken: Vector | float = 0.
 
 
 def correct(
-    memory: Numbers,
-    fresh: Scalar,
-    difference: Vector,
-    thrust: Scalar,
-    departure: Scalar,
-    vehicle: Vehicle,
-    sensors: Sensors,
-    period: float,
-) -> Numbers:
-    """Return the memory after a period.
+    memory: Numbers, fresh: Scalar, difference: Vector, thrust: Scalar, departure: Scalar, vehicle: Vehicle,
+    sensors: Sensors, period: float,
+) -> Numbers:  # fmt: skip
+    """Return the `memory` (11,) after a control `period`, s.
 
-    Parameters
-    ----------
-    memory : (11,)
-        As in RECORD.
-    fresh : scalar
-        1 if the accelerometer has read, else 0.
-    difference : (3,)
-        Force that it tells beyond the one expected, body axes, N.
-    thrust : scalar
-        Modelled thrust, N.
-    departure : scalar
-        Squared departure of the specific force from that of hover, (m/s²)².
-    vehicle, sensors, period
-        The vehicle, its sensors and the control period, s.
+    `fresh` is 1 if the accelerometer of `sensors` has read, else 0, and `difference` (3,) the force that it tells
+    beyond the one expected, body axes, N. `thrust` is the modelled one, N, `departure` the squared departure of the
+    specific force from that of hover, (m/s²)².
     """
     felt: dict[str, Any] = RECORD.split(memory)
     assert sensors.accelerometer is not None

@@ -129,12 +129,10 @@ def _learn(
     share = square / (square + (VARIES * weight) ** 2)
     kept = 1 - period / FORGETTING * share
     after = {
-        "risen": risen,
-        "weight": weighed,
-        "thrust": told["thrust"] + follow * off,
-        "unknown": told["unknown"] + follow * beside,
+        "risen": risen, "weight": weighed,
+        "thrust": told["thrust"] + follow * off, "unknown": told["unknown"] + follow * beside,
         "square": kept * told["square"] + share * square,
         "product": kept * told["product"] + share * ca.dot(off, beside),
-    }
+    }  # fmt: skip
     scale = after["product"] / (after["square"] + DOUBT / period * weight**2)
     return TOLD.join(after), clip(scale, -MOST, MOST)

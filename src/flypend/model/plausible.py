@@ -53,15 +53,11 @@ def arm(vehicle: Any) -> np.float64:
     return np.float64(np.max(np.linalg.norm(vehicle.rotor_positions, axis=1)))
 
 
-def _body(name: str) -> Callable[[Any], float]:
-    """Return vehicle → ratio of a radius of the body to the nearest rotor's distance from the pivot."""
-
-    def ratio(vehicle: Any) -> float:
-        distances = np.linalg.norm(vehicle.rotor_positions - vehicle.pivot_offset, axis=1)
-        nearest = np.min(distances[distances > 0])  # one in the middle has no arm
-        return float(getattr(vehicle.body, name) / nearest) if vehicle.body is not None else np.nan
-
-    return ratio
+def _over_arm(vehicle: Any, name: str) -> float:
+    """Return the ratio of a radius of the body to the nearest rotor's distance from the pivot."""
+    distances = np.linalg.norm(vehicle.rotor_positions - vehicle.pivot_offset, axis=1)
+    nearest = np.min(distances[distances > 0])  # one in the middle has no arm
+    return float(getattr(vehicle.body, name) / nearest) if vehicle.body is not None else np.nan
 
 
 # Limits are a hundred times from what machines have, a thousand where the factor of the wrong unit is larger still;
@@ -113,11 +109,11 @@ RULES: tuple[Rule, ...] = (
     ),
     Rule(
         "radius of the hub over the distance of the nearest rotor", "arms reach from the hub to the rotors",
-        _body("hub_radius"), 0.2, 0.0, 1.0, (("body.hub_radius", LENGTHS),),
+        lambda v: _over_arm(v, "hub_radius"), 0.2, 0.0, 1.0, (("body.hub_radius", LENGTHS),),
     ),
     Rule(
         "radius of an arm over its length", "arms are slender",
-        _body("arm_radius"), 0.04, 0.0, 1.0, (("body.arm_radius", LENGTHS),),
+        lambda v: _over_arm(v, "arm_radius"), 0.04, 0.0, 1.0, (("body.arm_radius", LENGTHS),),
     ),
     Rule(
         "radius of the rod over its length", "rods are slender",

@@ -195,14 +195,8 @@ def project(packed: Numbers) -> tuple[Numbers, Numbers]:
     Returns the projected vectors and the drift (..., 3) before projection: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
     """
     value = split(packed)
-    drift = np.stack(
-        [
-            np.abs(geometry.norm(value["y"]) - 1),
-            np.abs(geometry.dot(value["y"], value["y_dot"])),
-            geometry.rotation_defect(value["R"]),
-        ],
-        axis=-1,
-    )
+    length, normal = geometry.norm(value["y"]), geometry.dot(value["y"], value["y_dot"])
+    drift = np.stack([np.abs(length - 1), np.abs(normal), geometry.rotation_defect(value["R"])], axis=-1)
     out = np.array(packed, dtype=float)
     y = geometry.unit(value["y"])
     out[..., 6:15] = geometry.project_rotation(value["R"]).reshape((*out.shape[:-1], 9))

@@ -8,7 +8,7 @@ of the operations and no projection, and the error is that of steps half as long
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import casadi as ca
 
@@ -38,8 +38,8 @@ def cascade_step(packed: Numbers, wrench: Ramp, outside: Numbers, h: Scalar, veh
         Vehicle parameters; they may be symbolic.
     """
     s = State.symbolic(packed)
-    turned = _turn(s, Ramp(wrench.mean[1:], wrench.change[1:]), h, vehicle)
-    axes = (s.z, turned.z_middle, turned.R[:, 2])
+    omega, R, z_middle = _turn(s, Ramp(wrench.mean[1:], wrench.change[1:]), h, vehicle)
+    axes = (s.z, z_middle, R[:, 2])
     thrusts = (wrench.start[0], wrench.mean[0], wrench.end[0])
     pulls = [pull_on_rod(f, z, vehicle) for f, z in zip(thrusts, axes, strict=True)]
     on_vehicle, on_bob = (ca.SX(3, 1), ca.SX(3, 1)) if outside is None else (outside[:3], outside[3:])
@@ -47,21 +47,13 @@ def cascade_step(packed: Numbers, wrench: Ramp, outside: Numbers, h: Scalar, veh
     y, y_dot = _swung(s, [pull + steady for pull in pulls], h)
     acceleration = (on_vehicle + on_bob) / (vehicle.M + vehicle.m) - vehicle.g * E3
     x, x_dot = _carry(s, y, y_dot, pulls, acceleration, h, vehicle)
-    after = State.symbolic(ca.vertcat(x, x_dot, ca.vec(turned.R.T), turned.omega, y, y_dot))
-    return after.packed()
+    return ca.vertcat(x, x_dot, ca.vec(R.T), omega, y, y_dot)
 
 
-class _Turned(NamedTuple):
-    """The rotation after a step, and the thrust axis at its middle."""
+def _turn(s: State, moment: Ramp, h: Scalar, vehicle: Vehicle) -> tuple[Vector, Matrix, Vector]:
+    """Return ω and R after a step, and the thrust axis at its middle.
 
-    omega: Vector
-    R: Matrix
-    z_middle: Vector
-
-
-def _turn(s: State, moment: Ramp, h: Scalar, vehicle: Vehicle) -> _Turned:
-    """ω by the classical Runge-Kutta method, at the middle by Hermite interpolation, and R by the Magnus series.
-
+    ω by the classical Runge-Kutta method, at the middle by Hermite interpolation, and R by the Magnus series.
     The rotation vector of R(0)ᵀ R(t) is ∫ω + (t²/12) ω(0) × ω(t) + O(t⁵), since ω(t) is linear up to O(t²).
     """
     before = s.omega
@@ -73,7 +65,7 @@ def _turn(s: State, moment: Ramp, h: Scalar, vehicle: Vehicle) -> _Turned:
     middle = (before + after) / 2 + h / 8 * (k_1 - k_4)
     whole = h / 6 * (before + 4 * middle + after) + h**2 / 12 * cross(before, after)
     half = h / 24 * (5 * before + 8 * middle - after) + h**2 / 48 * cross(before, middle)
-    return _Turned(after, ca.mtimes(s.R, rotation_by(whole)), ca.mtimes(s.R, rotation_by(half)[:, 2]))
+    return after, ca.mtimes(s.R, rotation_by(whole)), ca.mtimes(s.R, rotation_by(half)[:, 2])
 
 
 def rotation_by(vector: Vector) -> Matrix:

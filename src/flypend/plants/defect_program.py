@@ -135,22 +135,9 @@ def _turn_about(axis: Vector, sine: Scalar, cosine: Scalar) -> Matrix:
 class Defects:
     """The defects of `sensors` at one control tick, in CasADi.
 
-    Parameters
-    ----------
-    sensors : Sensors
-        The sensors.
-    period : float
-        Control period, s.
-    t : SX
-        Time of the tick, s.
-    y_before, y : SX (3,)
-        The rod at the tick before, and at this one, world.
-    memory : SX
-        As `record` has it.
-    draws : dict of SX
-        Standard normal numbers of this tick, as many as `random_numbers` says.
-    numbers : SX or DM (n,)
-        Their `sizes`, one after the other.
+    The tick is at the time `t`, s, in control periods of `period`, s; `y_before` and `y` (3,) are the rod at the tick
+    before and at this one, world. `memory` is as `record` has it, `draws` holds the standard normal numbers of this
+    tick, as many as `random_numbers` says, and `numbers` (n,) the `sizes`, one after the other.
     """
 
     def __init__(

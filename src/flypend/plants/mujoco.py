@@ -123,13 +123,9 @@ class MujocoEngine:
         return np.array(self._rotors)
 
     def step(
-        self,
-        forces: Numbers,
-        force_on_vehicle: Vector = (0.0, 0.0, 0.0),
-        force_on_bob: Vector = (0.0, 0.0, 0.0),
-        torque_on_vehicle: Vector = (0.0, 0.0, 0.0),
-        joint_torque: Vector = (0.0, 0.0, 0.0),
-    ) -> None:
+        self, forces: Numbers, force_on_vehicle: Vector = (0.0, 0.0, 0.0), force_on_bob: Vector = (0.0, 0.0, 0.0),
+        torque_on_vehicle: Vector = (0.0, 0.0, 0.0), joint_torque: Vector = (0.0, 0.0, 0.0),
+    ) -> None:  # fmt: skip
         """Advance by one timestep under constant forces.
 
         Parameters

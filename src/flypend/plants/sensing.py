@@ -64,15 +64,13 @@ def readings_record(sensors: Sensors) -> Record:
 def memory_record(sensors: Sensors, period: float) -> Record:
     """Return the memory of `sensing` at a control `period` (s): the last true state, defects, readings that wait."""
     wrong = defect_program.record(sensors)
-    queues = [
-        Field(name, _waiting(sensors, name, period) * _entry(sensors, name), "readings under way, newest first")
-        for name in sensors.streams
-        if _waiting(sensors, name, period)
-    ]
-    of_defects = [Field.of(wrong)] * bool(wrong.fields)
-    return Record(
-        "sensors", "The sensors' own.", (Field("state", SIZE, "at the last tick, e3 up"), *of_defects, *queues)
+    lengths = {name: _waiting(sensors, name, period) * _entry(sensors, name) for name in sensors.streams}
+    fields = (
+        Field("state", SIZE, "at the last tick, e3 up"),
+        *[Field.of(wrong)] * bool(wrong.fields),
+        *(Field(name, length, "readings under way, newest first") for name, length in lengths.items() if length),
     )
+    return Record("sensors", "The sensors' own.", fields)
 
 
 def _late(sensors: Sensors, name: str) -> Sensor:
@@ -271,14 +269,9 @@ def _between(before: State, now: State, since: Scalar, period: float) -> State:
     omega = before.omega + share * (now.omega - before.omega)
     turn = since / 2 * (omega + now.omega)
     y = unit(cubic(before.y, before.y_dot, now.y, now.y_dot))
-    return State(
-        x=cubic(before.x, before.x_dot, now.x, now.x_dot),
-        x_dot=before.x_dot + share * (now.x_dot - before.x_dot),
-        R=now.R @ rotation_by(-turn),
-        omega=omega,
-        y=y,
-        y_dot=tangent_part(y, before.y_dot + share * (now.y_dot - before.y_dot)),
-    )
+    x, x_dot = cubic(before.x, before.x_dot, now.x, now.x_dot), before.x_dot + share * (now.x_dot - before.x_dot)
+    y_dot = tangent_part(y, before.y_dot + share * (now.y_dot - before.y_dot))
+    return State(x=x, x_dot=x_dot, R=now.R @ rotation_by(-turn), omega=omega, y=y, y_dot=y_dot)
 
 
 def mean_force(v: Vector, v_after: Vector, R: Matrix, R_after: Matrix, g: Scalar, period: float) -> Vector:

@@ -42,10 +42,12 @@ def rod_inertia_factor(heavier: float, longer: float) -> float:
 
 def stretched(vehicle: Any, heavier: float, longer: float) -> dict[str, Any]:
     """Return the fields of the rod of `vehicle` with mass and lengths times these factors; it keeps its shape."""
+    turned = rod_inertia_factor(heavier, longer)
     return {
         "bob_mass": heavier * vehicle.bob_mass,
         "rod_length": longer * vehicle.rod_length,
-        "rod_inertia": rod_inertia_factor(heavier, longer) * vehicle.rod_inertia,
+        "rod_inertia": turned * vehicle.rod_inertia,
+        "rod_spin_inertia": turned * vehicle.rod_spin_inertia,
         "rod_end": None if vehicle.rod_end is None else longer * vehicle.rod_end,
     }
 

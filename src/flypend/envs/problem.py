@@ -193,9 +193,7 @@ class Parts:
         env, h = self.env, 1 / self.env.plant.rate
         if env.randomise.lag == (1.0, 1.0) or self.true.rotor_lag == 0:
             return ca.DM(motor_timing(self.true.rotor_lag, env.plant, h))
-        lag = draws.between(*env.randomise.lag) * self.true.rotor_lag
-        lags = [lag] if env.plant.spin_up == 1.0 else [lag, env.plant.spin_up * lag]
-        return ca.vertcat(*(symbolic_timing(each, h) for each in lags))
+        return motor_timing(draws.between(*env.randomise.lag) * self.true.rotor_lag, env.plant, h, symbolic_timing)
 
     def command(self) -> ca.Function:
         """(state with rotors, action, numbers) → rotor forces."""

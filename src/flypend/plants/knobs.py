@@ -17,6 +17,7 @@ from flypend.plants.defect_program import sizes
 from flypend.plants.defects import NAMES
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.measurement import NOISE_SIZE, wind_numbers
+from flypend.plants.motors import motor_timing
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Sampled, Wind
 from flypend.plants.schedule import SAME, longest_step
@@ -64,7 +65,8 @@ def turn_knobs(plant: Sampled) -> ca.Function:
     period = 1 / plant.rate
     intervals = _intervals(of["delay"], period, longest_step(plant))
     schedule = [ca.vertcat(age, steps) for age, steps, _ in intervals]
-    timings = [_timing(of["lag"], plant, while_ / ca.fmax(steps, 1)) for _, steps, while_ in intervals]
+    lengths = [while_ / ca.fmax(steps, 1) for _, steps, while_ in intervals]
+    timings = [motor_timing(of["lag"], plant, length, _timing) for length in lengths]
     seen = [of["noise"], of["origin"]] if plant.sensors is None else _defects(of["defects"], plant.sensors, period)
     numbers = ca.vertcat(*schedule, *timings, *seen, _wind(of, plant, period), of["rotor_limits"])
     return ca.Function("turned", [knobs], [ca.cse(ca.densify(numbers))])
@@ -107,13 +109,8 @@ def _count(duration: Scalar, longest: float) -> Scalar:
     return ca.fmax(1, -ca.floor(SAME - duration / longest))
 
 
-def _timing(lag: Scalar, plant: Sampled, duration: Scalar) -> Numbers:
-    """As `motor_timing`, of symbols."""
-    falling = _hold(lag, duration)
-    return falling if plant.spin_up == 1.0 else ca.vertcat(falling, _hold(plant.spin_up * lag, duration))
-
-
-def _hold(lag: Scalar, duration: Scalar) -> Numbers:
+def _timing(lag: Scalar, duration: Scalar) -> Numbers:
+    """As `step_timing`, of symbols."""
     while_ = ca.fmax(duration, SAME)  # of an interval that is empty nothing is used
     numbers = symbolic_timing(ca.fmax(lag, LEAST_LAG), while_)
     return ca.vertcat(while_, ca.if_else(lag > LEAST_LAG, numbers[1:], ca.DM.zeros(3)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
@@ -53,12 +54,15 @@ def timing_size(plant: Plant) -> int:
     return TIMING_SIZE if plant.spin_up == 1.0 else 2 * TIMING_SIZE
 
 
-def motor_timing(lag: float, plant: Plant, duration: float) -> Numbers:
-    """Return `step_timing` of falling forces, whose time constant is `lag` (s), then of rising ones if it differs."""
-    falling = step_timing(lag, duration)
+def motor_timing(
+    lag: Scalar, plant: Plant, duration: Scalar, timing: Callable[[Any, Any], Numbers] = step_timing
+) -> Numbers:
+    """Return the `timing` of falling forces, whose time constant is `lag` (s), then of rising ones if it differs."""
+    falling = timing(lag, duration)
     if plant.spin_up == 1.0:
         return falling
-    return np.concatenate([falling, step_timing(plant.spin_up * lag, duration)])
+    both = [falling, timing(plant.spin_up * lag, duration)]
+    return ca.vertcat(*both) if is_symbolic(falling) else np.concatenate(both)
 
 
 def follow(rotors: Numbers, target: Numbers, timing: Numbers) -> tuple[Ramp, Numbers]:

@@ -38,7 +38,7 @@ from flypend.model.mjcf import model_xml
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import steps_in, within_period
+from flypend.plants.schedule import fewest_steps, steps_in, within_period
 
 # MuJoCo replaces a motor force that is NaN or larger than this (N) by zero, with only a warning.
 MAX_FORCE = 1e10
@@ -234,7 +234,7 @@ def substeps(duration: float, vehicle: Vehicle, plant: Plant) -> int:
     longest = SURROUNDED_STEP if plant.in_air(vehicle) or vehicle.rubs else FLIGHT_STEP
     if (lag := filter_lag(vehicle) * min(1.0, plant.spin_up)) > 0:
         longest = min(longest, lag / 4)
-    return max(1, int(np.ceil(duration / longest - 1e-9)))
+    return fewest_steps(duration, longest)
 
 
 # Idle worlds that are kept: one a thread, for the few plants that a study goes through.

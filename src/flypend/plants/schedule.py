@@ -58,6 +58,11 @@ def steps_in(duration: float, plant: Plant, longest: float | None = None) -> int
     if longest is None:
         inside = plant.engine == "mujoco" and plant.interface != "rates"
         longest = duration if inside else longest_step(plant)
+    return fewest_steps(duration, longest)
+
+
+def fewest_steps(duration: float, longest: float) -> int:
+    """Return the fewest equal steps, at least one, in `duration`, none longer than `longest` (s), up to roundoff."""
     return max(1, int(np.ceil(duration / longest - SAME)))
 
 
@@ -73,10 +78,10 @@ def in_steps(segments: Sequence[Segment], longest: float) -> list[tuple[Segment,
     """
     parts: list[Segment] = []
     for age, duration in segments:
-        count = max(1, int(np.ceil(duration / longest - SAME)))
+        count = fewest_steps(duration, longest)
         parts += [Segment(age, duration / count)] * count
     whole = sum(part.duration for part in parts)
-    count = max(1, int(np.ceil(whole / longest - SAME)))
+    count = fewest_steps(whole, longest)
     steps: dict[int, list[Segment]] = {}
     begin = 0.0
     for part in parts:

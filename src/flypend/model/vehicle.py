@@ -326,7 +326,10 @@ class Vehicle:
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
         """Build a vehicle from the parsed TOML `values`. Raises InputError with field names prefixed by `field`."""
-        _check_fields(cls, field, values)
+        errors.only_known(field, values, _FIELDS)
+        for name in _needed(cls):
+            if name not in values:
+                raise InputError(f"{field}.{name}", errors.documentation_of(cls, name), "nothing")
         try:
             return cls(**values)
         except InputError as error:
@@ -393,12 +396,9 @@ _NUMBERS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
-def _check_fields(kind: type[Any], field: str, values: Mapping[str, Any]) -> None:
-    """Raise InputError unless `values` are fields of the record `kind`, among them all without a default."""
-    errors.only_known(field, values, [entry.name for entry in fields(kind)])
-    for entry in fields(kind):
-        if entry.default is MISSING and entry.name not in values:
-            raise InputError(f"{field}.{entry.name}", errors.documentation_of(kind, entry.name), "nothing")
+def _needed(kind: type[Any]) -> list[str]:
+    """Return the names of fields of a record that have no default."""
+    return [entry.name for entry in fields(kind) if entry.default is MISSING]
 
 
 def _record(kind: type[Any], field: str, value: Any, called: str) -> Any:
@@ -410,7 +410,10 @@ def _record(kind: type[Any], field: str, value: Any, called: str) -> Any:
         return value
     if not isinstance(value, Mapping):
         raise InputError(field, f"{called}, or its fields as a dict", repr(value))
-    _check_fields(kind, field, value)
+    errors.only_known(field, value, [entry.name for entry in fields(kind)])
+    for name in (needed := _needed(kind)):
+        if name not in value:
+            raise InputError(f"{field}.{name}", f"{', '.join(needed)}, lengths in m", f"no {name}")
     return kind(**value)
 
 

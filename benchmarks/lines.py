@@ -14,7 +14,7 @@ import flypend as fp
 from benchmarks import clock
 from benchmarks.peak import flops_per_second
 from benchmarks.problem import Problem
-from flypend.compile.sampled_problem import EquationsProblem
+from flypend.compile.problem import EquationsProblem
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
 from flypend.flight.kernels.ideal import Limits, Moments, call

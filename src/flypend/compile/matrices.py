@@ -5,7 +5,6 @@ Code generators write them as a table and a loop instead of a statement for ever
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 
 from flypend.compile.program import Program
@@ -37,11 +36,9 @@ class Matrix:
 
 def matrices(program: Program) -> list[Matrix]:
     """Return the products with constant matrices in `program`, by their first rows; rounding stays as it is."""
-    operations = program.operations
-    uses = Counter(place for operation in operations for place in operation.arguments if operation.name != "input")
-    uses.update(place for vector in program.outputs for place in vector)
+    uses = program.uses()
     sums: dict[int, list[int]] = {}  # of products, in order: by the operation that ends them
-    for number, operation in enumerate(operations):
+    for number, operation in enumerate(program.operations):
         if operation.name != "add":
             continue
         for before, last in (operation.arguments, operation.arguments[::-1]):

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
-from flypend.compile.worlds_problem import WorldsProblem
+from flypend.compile.problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
 from flypend.flight.kernels.flown import allocate

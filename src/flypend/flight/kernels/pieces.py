@@ -24,8 +24,8 @@ from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
 from flypend.compile.numeric import as_numpy
+from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
-from flypend.compile.sampled_problem import Resuming, SampledProblem
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import STATUS, allocate, in_order, inputs_of

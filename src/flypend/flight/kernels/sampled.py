@@ -20,9 +20,9 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.loops import LoopModule
 from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, kernel_module
 from flypend.compile.llvm.target import Target
+from flypend.compile.problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
-from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observe
 from flypend.flight.kernels.flown import Flown, Progress, in_order, in_pieces, inputs_of

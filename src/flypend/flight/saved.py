@@ -106,10 +106,12 @@ def check(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> t
     fields |= {"drift": DRIFT} if "drift" in variables else {}
     arrays: dict[str, Any] = {"drift": np.zeros((0, len(DRIFT_OF))), **check_variables(fields, variables, lengths)}
     _check_states(arrays)
+    errors.one_of("outcome", about["outcome"], STATUSES)
+    time = errors.number("outcome_time", about["outcome_time"], at_least=0, unit="s")
     run = dict(
         **{name: arrays[name] for name in (*ARRAYS, "drift")},
         signals={name: arrays[name] for name in signals},
-        outcome=_outcome(about),
+        outcome=Outcome(about["outcome"], time, about["outcome_reason"]),
         e3=about["e3"],
         vehicle=vehicle,
         law=about["law"],
@@ -135,12 +137,6 @@ def _signal_names(names: list[Any]) -> list[str]:
     if not all(isinstance(name, str) and name not in taken for name in names) or len(set(names)) != len(names):
         raise InputError("signals", "names, once each, that are not those of other variables", repr(names)[:80])
     return names
-
-
-def _outcome(about: Mapping[str, Any]) -> Outcome:
-    errors.one_of("outcome", about["outcome"], STATUSES)
-    time = errors.number("outcome_time", about["outcome_time"], at_least=0, unit="s")
-    return Outcome(about["outcome"], time, about["outcome_reason"])
 
 
 def _check_states(arrays: Mapping[str, Any]) -> None:

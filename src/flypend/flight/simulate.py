@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 from flypend import errors, plants, signals
 from flypend.compile.numeric import as_numpy
 from flypend.compile.problem import LONGEST
-from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
-from flypend.flight.kernels.single import Solution, sampled_samples
+from flypend.flight.kernels import SampledKernel, has_kernel, kernel_of
+from flypend.flight.kernels.launch import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
-from flypend.flight.sampled import Samples, fly_stepwise
+from flypend.flight.sampled import fly_stepwise
 from flypend.flight.signals import Signals
 from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
@@ -107,7 +107,7 @@ def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
 def _ideal(flight: Flight, engine: str) -> Trajectory:
     """Fly the closed loop in continuous time; the wrench acts as commanded, or after the rotors' lag."""
     loop = close_loop(flight.vehicle, flight.loop.symbolic, lag=flight.loop.lag)
-    solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop)
+    solution = Solution(kernel_of(flight), flight) if engine == "kernel" else _by_scipy(flight, loop)
     wanted, end = flight.moments, solution.outcome.time
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
     packed = solution(t)
@@ -118,12 +118,6 @@ def _ideal(flight: Flight, engine: str) -> Trajectory:
         signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)), drift=solution.drift,
         outcome=solution.outcome, interpolant=(lambda t: solution(t)[..., :SIZE]) if flight.loop.lag else solution,
     )  # fmt: skip
-
-
-def _by_kernel(flight: Flight) -> Solution:
-    kernel = kernel_of(flight)
-    assert isinstance(kernel, IdealKernel)
-    return Solution(kernel, flight)
 
 
 def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
@@ -141,8 +135,8 @@ def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
 
     exact, rates = flight.tolerances, as_numpy(loop.rates)
     return integrate(
-        rates, flight.packed[0], flight.duration, rtol=exact.rtol, atol=exact.absolute, margin=margin,
-        margin_reason=reason, touch=_touch(flight, loop),
+        rates, flight.packed[0], flight.duration, rtol=exact.rtol, atol=exact.absolute,
+        max_steps=exact.steps, margin=margin, margin_reason=reason, touch=_touch(flight, loop),
     )  # fmt: skip
 
 
@@ -174,7 +168,12 @@ def _touch(flight: Flight, loop: ClosedLoop) -> Callable[[Any], tuple[float, str
 
 def _fly_sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     """Fly a sampled flight; it is recorded at the control ticks nearest to the sample times."""
-    samples = _samples(flight, plant, engine)
+    if engine == "kernel" and has_kernel(flight):
+        kernel = kernel_of(flight)
+        assert isinstance(kernel, SampledKernel)
+        samples = sampled_samples(kernel, flight)
+    else:
+        samples = fly_stepwise(flight).at(flight.moments * plant.rate)
     law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     packed = convert_packed(samples.packed, law.e3)
@@ -182,14 +181,6 @@ def _fly_sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     return record_run(
         law, vehicle, samples.t, packed, wrench, rotor_forces=samples.rotors, signals=told, outcome=samples.outcome
     )
-
-
-def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
-    if engine == "kernel" and has_kernel(flight):
-        kernel = kernel_of(flight)
-        assert isinstance(kernel, SampledKernel)
-        return sampled_samples(kernel, flight)
-    return fly_stepwise(flight).at(flight.moments * plant.rate)
 
 
 def record_run(law: AnyLaw, vehicle: Vehicle, t: Numbers, packed: Numbers, wrench: Numbers, **more: Any) -> Trajectory:

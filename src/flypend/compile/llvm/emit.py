@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 from flypend.compile.llvm.target import Target, native
+from flypend.compile.numeric import LINE
 from flypend.compile.program import LIBRARY, LIBRARY_2, ONE, Operation, Program, drop_dead, interpret
 from flypend.compile.routine import Cell, Routine, stretches
 
 ELEMENTARY = ("logarithm", "sine", "cosine", "inverse_root")  # functions of compile/loops/elementary.cpp
-LINE = 64  # bytes of a cache line
 # Allow fused multiply-add, reassociation, ignoring the sign of zero, and shared reciprocals: 10 % faster, with the same
 # result in every lane of a kernel. NaN and infinity keep their meaning.
 FLAGS = "contract reassoc nsz arcp "

@@ -7,7 +7,6 @@ them, forward or backward. The loop is `compile/loops/horizon.cpp`.
 from __future__ import annotations
 
 import ctypes
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -21,18 +20,17 @@ from numpy.typing import NDArray
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import Lanes, define_routine
 from flypend.compile.llvm.loops import Constants, LoopModule
+from flypend.compile.numeric import aligned
 from flypend.compile.routine import Routine, lower_calls
 
 WIDTH = 8
-ALIGNMENT = 64  # bytes
 
 
 def lanes(*shape: int, width: int = WIDTH) -> NDArray[np.float64]:
     """Return zeros of this `shape` with a last axis of `width` lanes, for a `Stagewise` of that width."""
-    length = math.prod(shape) * width
-    raw = np.zeros(length + ALIGNMENT // 8)
-    first = -raw.ctypes.data % ALIGNMENT // 8
-    return raw[first : first + length].reshape((*shape, width))
+    made: NDArray[np.float64] = aligned((*shape, width))
+    made[...] = 0.0
+    return made
 
 
 @dataclass(frozen=True)

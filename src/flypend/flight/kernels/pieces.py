@@ -23,14 +23,14 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import aligned, as_numpy
 from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import STATUS, allocate, in_order, inputs_of
+from flypend.flight.kernels.flown import STATUS, in_order, inputs_of
+from flypend.flight.kernels.launch import outcome_of
 from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, write_sampled
-from flypend.flight.kernels.single import sampled_outcome
 from flypend.flight.outcome import Outcome
 from flypend.model import State
 from flypend.model.state import SIZE, convert_packed
@@ -130,7 +130,7 @@ class PiecewiseFlight:
             "starts": begin[None], "parameters": inputs_of(loop, None, 1).copy(), "seeds": np.array([seed]), "runs": 1,
             "reductions": np.zeros((1, len(JUDGED))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
             "status": np.zeros(1, dtype=np.int64), "clearance": np.zeros(1), "part": np.zeros(1, dtype=np.int64),
-            "stop": np.zeros(1, dtype=np.int64), "context": allocate((kernel.room // 8,)),
+            "stop": np.zeros(1, dtype=np.int64), "context": aligned((kernel.room // 8,)),
             "mujoco": None,
         }  # fmt: skip
         self._plant: NDArray[np.float64] = self._turn(np.concatenate(list(self._knobs.values())))
@@ -174,8 +174,7 @@ class PiecewiseFlight:
     @property
     def outcome(self) -> Outcome:
         """How and when the flight has ended; completed at its last tick while it goes on."""
-        code, end, part = (self._given[name][0] for name in ("status", "end", "part"))
-        return sampled_outcome(int(code), float(end), int(part), self._loop.vehicle)
+        return outcome_of(self._loop, *(self._given[name] for name in ("status", "end", "part")))
 
     @property
     def status(self) -> str:

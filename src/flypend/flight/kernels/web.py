@@ -79,7 +79,7 @@ def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int =
 def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int) -> WebModule:
     """Return the module that flies `loop` through the ideal plant in a page."""
     problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
-    written = ideal.write_ideal(ideal.key_of(problem, *chosen), problem, lanes, *chosen, wasm32())
+    written = ideal.write_ideal(problem, lanes, *chosen, wasm32())
     centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
     beside = (own(loop), row(loop), struck(centred), shown_values(loop, criterion))
     return WebModule(*written, ("kernel",), tuple(lower(function) for function in beside))

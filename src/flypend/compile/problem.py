@@ -67,15 +67,6 @@ class Judging:
         """Whether the gauges are without cases, so that between steps they follow from their derivatives."""
         return not PIECEWISE & self.gauges.counts().keys()
 
-    @property
-    def size(self) -> int:
-        """Number of reductions.
-
-        Time since which all gauges are within bounds, last time out of bounds of each, root of the largest value of the
-        last gauge, and mean square over time and maximum of the forces.
-        """
-        return len(self.bounds) + 4
-
 
 @dataclass(frozen=True)
 class Problem:
@@ -105,11 +96,6 @@ class Problem:
     def size(self) -> int:
         """Length of the state."""
         return self.rates.inputs[1]
-
-    @property
-    def parameters(self) -> int:
-        """Number of parameters."""
-        return self.rates.inputs[2]
 
 
 @dataclass(frozen=True)
@@ -258,31 +244,6 @@ class SampledProblem:
     resuming: Resuming | None = None
 
     @property
-    def memory(self) -> int:
-        """Length of the board's memory."""
-        return self.board.inputs[0]
-
-    @property
-    def measured(self) -> int:
-        """Length of what the board is given: the state, or readings."""
-        return self.board.inputs[1] - 1
-
-    @property
-    def gains(self) -> int:
-        """Number of gains that are inputs of the kernel."""
-        return self.board.inputs[3]
-
-    @property
-    def command(self) -> int:
-        """Length of a command."""
-        return len(self.begin.outputs[1])
-
-    @property
-    def rotors(self) -> int:
-        """Number of rotors."""
-        return self.begin.inputs[0]
-
-    @property
     def inputs(self) -> tuple[int, int, int, int, int]:
         """Lengths of the inputs shared by all flights of a call.
 
@@ -294,23 +255,6 @@ class SampledProblem:
         stretches = self.resuming.stretches if self.resuming else len(self.flown)
         schedule = 2 * stretches if self.resuming else 0
         return schedule, self.timing * stretches, noise, wind, self.board.inputs[4]
-
-    @property
-    def gust(self) -> int:
-        """Length of the memory of gusts and knocks."""
-        return self.gusts.inputs[0] if self.gusts else 0
-
-    @property
-    def drawn(self) -> range:
-        """The random numbers of a tick that are used: the first for the measurement, the others for the gusts."""
-        measured = self.measure.inputs[1] if self.measure else self.sensing.sense.inputs[3] if self.sensing else 0
-        blown = GUSTS + self.gusts.inputs[1] if self.gusts else 0
-        return range(0 if measured else GUSTS, max(measured, blown))
-
-    @property
-    def depth(self) -> int:
-        """Number of commands to buffer: those in transit and the current one."""
-        return self.resuming.depth if self.resuming else 1 + max(stretch.age for stretch in self.flown)
 
 
 @dataclass(frozen=True)
@@ -335,11 +279,6 @@ class Estimating:
     carry: Program
     sense: Program
     tick: int
-
-    @property
-    def size(self) -> int:
-        """Length of the memory."""
-        return len(self.first.outputs[0])
 
 
 @dataclass(frozen=True)
@@ -399,5 +338,5 @@ class WorldsProblem:
         }  # fmt: skip
         found = dict(zip((*lengths, "goal"), accumulate(lengths.values(), initial=0), strict=True))
         estimate = len(self.begin.outputs[0])
-        own = 0 if self.estimating is None else self.estimating.size
+        own = 0 if self.estimating is None else len(self.estimating.first.outputs[0])
         return found | {"estimate": estimate, "end": estimate + own}

@@ -177,9 +177,11 @@ class _Builder:
             return self.do("div", self.constant(1.0), self._integer_power(base, -power))
         if power == 0:
             return self.constant(1.0)
-        half = self._integer_power(base, power // 2) if power > 1 else base
-        squared = self.do("mul", half, half) if power > 1 else base
-        return self.do("mul", squared, base) if power > 1 and power % 2 else squared
+        if power == 1:
+            return base
+        half = self._integer_power(base, power // 2)
+        squared = self.do("mul", half, half)
+        return self.do("mul", squared, base) if power % 2 else squared
 
     def do(self, name: str, *arguments: int) -> int:
         """Add the operation `name`, simplified; return its index."""

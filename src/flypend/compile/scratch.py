@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 from heapq import heappop, heappush
 
-from flypend.compile.matrices import Matrix, matrices
+from flypend.compile.matrices import matrices
 from flypend.compile.program import Operation, Program
 
 # Statements after which a value is read from memory again; between them a compiler has registers, or the stack. Of 16,
@@ -58,7 +58,10 @@ class Scratch:
             while taken and taken[0][0] < number:
                 free.append(heappop(taken)[1])
             if number in self._first:
-                self._put_vectors(self._first[number])
+                matrix = self._first[number]
+                self.vectors.append(self._more(len(matrix.columns)))
+                rows = self._more(len(matrix.rows))
+                self.places |= {row: rows + i for i, row in enumerate(matrix.rows)}
             elif (
                 number not in self.inner
                 and operation.name not in ("input", "constant", *TRUTHS)
@@ -80,11 +83,6 @@ class Scratch:
         if number in self._first:
             return self._first[number].columns
         return () if number in self.inner or operation.name == "input" else operation.arguments
-
-    def _put_vectors(self, matrix: Matrix) -> None:
-        self.vectors.append(self._more(len(matrix.columns)))
-        rows = self._more(len(matrix.rows))
-        self.places |= {row: rows + i for i, row in enumerate(matrix.rows)}
 
     def _more(self, count: int) -> int:
         """The first of `count` new places."""

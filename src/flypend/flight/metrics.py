@@ -204,7 +204,7 @@ def _lean(run: Trajectory) -> Numbers:
         return 0.0
     velocity = np.gradient(run.x_ref, run.t, axis=0, edge_order=2)
     acceleration = np.gradient(velocity, run.t, axis=0, edge_order=2)
-    return lean(acceleration * (1.0 if run.e3 == "up" else np.array([1.0, -1.0, -1.0])), run.vehicle.g)
+    return lean(acceleration, run.vehicle.g, run.e3)
 
 
 def _last(t: Numbers, bad: Numbers) -> float:

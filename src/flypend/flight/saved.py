@@ -101,7 +101,9 @@ def check(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> t
     with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
         vehicle = Vehicle.from_dict(json_of("vehicle", about, dict))
     lengths = LENGTHS | {"rotor": len(vehicle.rotor_spins)}
-    signals = _signal_names(json_of("signals", about, list))
+    signals, taken = json_of("signals", about, list), {*FIELDS, *LENGTHS, "drift"}
+    if not all(isinstance(name, str) and name not in taken for name in signals) or len(set(signals)) != len(signals):
+        raise InputError("signals", "names, once each, that are not those of other variables", repr(signals)[:80])
     fields = {**FIELDS, **{name: Field(("t",), unit=UNITS.get(name, ""), finite=False) for name in signals}}
     fields |= {"drift": DRIFT} if "drift" in variables else {}
     arrays: dict[str, Any] = {"drift": np.zeros((0, len(DRIFT_OF))), **check_variables(fields, variables, lengths)}
@@ -130,13 +132,6 @@ def json_of(name: str, attributes: Mapping[str, Any], kind: type) -> Any:
     if not isinstance(found, kind):
         raise InputError(name, expected, repr(found)[:80])
     return found
-
-
-def _signal_names(names: list[Any]) -> list[str]:
-    taken = {*FIELDS, *LENGTHS, "drift"}
-    if not all(isinstance(name, str) and name not in taken for name in names) or len(set(names)) != len(names):
-        raise InputError("signals", "names, once each, that are not those of other variables", repr(names)[:80])
-    return names
 
 
 def _check_states(arrays: Mapping[str, Any]) -> None:

@@ -65,18 +65,22 @@ def _programs(problem: SampledProblem) -> dict[str, Definition]:
 
 
 def _constants(problem: SampledProblem) -> Constants:
-    slide, sensing, pieces, judged = problem.board.slide(), problem.sensing, problem.resuming, problem.reductions
+    begin, board, gusts, judged = problem.begin, problem.board, problem.gusts, problem.reductions
+    sensing, pieces, ages = problem.sensing, problem.resuming, [stretch.age for stretch in problem.flown]
+    memory, given, _, gains, _ = board.inputs
     _, timings, noise, wind, params = problem.inputs
-    stretches = pieces.stretches if pieces else len(problem.flown)
+    stretches = pieces.stretches if pieces else len(ages)
+    # The random numbers of a tick that are used: the first for the measurement, the others for the gusts.
+    measured = problem.measure.inputs[1] if problem.measure else sensing.sense.inputs[3] if sensing else 0
+    drawn = max(measured, GUSTS + gusts.inputs[1] if gusts else 0)
     numbers: Constants = {
-        "STATE": SIZE, "ROTORS": problem.rotors, "MEMORY": problem.memory, "SLIDE": slide or problem.memory,
-        "MEASURED": problem.measured, "COMMAND": problem.command, "GAINS": problem.gains, "NOISE": noise, "WIND": wind,
-        "PARAMS": params, "GUST": problem.gust, "VALUES": len(judged), "PERIOD": problem.period,
-        "STRETCHES": stretches, "TIMING": timings // stretches, "DEPTH": problem.depth,
-        "PIECES": int(pieces is not None),
-        "AGES": [stretch.age for stretch in problem.flown], "STEPS": [stretch.steps for stretch in problem.flown],
-        "RANDOM": int(problem.random), "FIRST_DRAW": problem.drawn.start, "END_DRAW": problem.drawn.stop,
-        "DRAWS": max(PER_TICK, whole_blocks(problem.drawn.stop)), "GUSTS": GUSTS,
+        "STATE": SIZE, "ROTORS": begin.inputs[0], "MEMORY": memory, "SLIDE": board.slide() or memory,
+        "MEASURED": given - 1, "COMMAND": len(begin.outputs[1]), "GAINS": gains, "NOISE": noise, "WIND": wind,
+        "PARAMS": params, "GUST": gusts.inputs[0] if gusts else 0, "VALUES": len(judged), "PERIOD": problem.period,
+        "STRETCHES": stretches, "TIMING": timings // stretches, "DEPTH": pieces.depth if pieces else 1 + max(ages),
+        "PIECES": int(pieces is not None), "AGES": ages, "STEPS": [stretch.steps for stretch in problem.flown],
+        "RANDOM": int(problem.random), "FIRST_DRAW": 0 if measured else GUSTS, "END_DRAW": drawn,
+        "DRAWS": max(PER_TICK, whole_blocks(drawn)), "GUSTS": GUSTS,
         "RATES": int(problem.loop is not None), "MEASURES": int(problem.measure is not None),
         "TOUCHES": int(problem.touch is not None), "MOST_STATE": float(MAX_STATE),
         "KINDS": [KINDS.index(kind) for kind in judged],

@@ -152,25 +152,13 @@ def call(
 def ideal_kernel(
     loop: Loop, criterion: Criterion | None = None, *, method: str = "dop853", precision: str = "double"
 ) -> IdealKernel:
-    """Return the kernel of a `loop` in continuous time, compiled or from the cache.
+    """Return the kernel of a `loop` in continuous time for `criterion` (default: inverted), compiled or from the cache.
 
-    Of the loop's plant only count lag and floor.
+    Of the loop's plant only count lag and floor. Its parameters are inputs, all other gains are constants of the code.
+    `method` is "dop853", of order 8 for tight tolerances, or "dp5", of order 5 for 1e-6 and looser. All arithmetic has
+    the `precision` "double" or "float".
 
-    Parameters
-    ----------
-    loop : Loop
-        Vehicle and law. The loop's parameters are inputs; all other gains are constants of the machine code.
-    criterion : Criterion, optional
-        Success criterion (default: inverted).
-    method : "dop853" or "dp5"
-        Order 8 for tight tolerances; order 5 for 1e-6 and looser.
-    precision : "double" or "float"
-        Precision of all arithmetic.
-
-    Raises
-    ------
-    InputError
-        If the method, precision or a gain is unknown, or the law has operations that cannot be compiled.
+    Raises InputError if the method, precision or a gain is unknown, or the law has operations that cannot be compiled.
     """
     criterion = criterion or Criterion()
     one_of("precision", precision, BYTES)

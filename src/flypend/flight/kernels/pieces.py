@@ -28,7 +28,7 @@ from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import STATUS, in_order, inputs_of
+from flypend.flight.kernels.flown import in_order, inputs_of
 from flypend.flight.kernels.launch import outcome_of
 from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, write_sampled
 from flypend.flight.outcome import Outcome
@@ -87,7 +87,10 @@ class PiecesKernel:
     room: int
 
     def begin(self, start: State, *, seed: int = 0, gains: Mapping[str, float] | None = None) -> PiecewiseFlight:
-        """Begin a flight from `start`, in the law's frame, with the random numbers of `seed`."""
+        """Begin a flight from `start`, in the law's frame, with the random numbers of `seed`.
+
+        The rotors give their least force. `gains` are values of gains that are inputs, default those of the law.
+        """
         return PiecewiseFlight(self, start, seed, gains or {})
 
 
@@ -106,19 +109,7 @@ def _compile(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
 
 
 class PiecewiseFlight:
-    """A flight that is flown piece by piece.
-
-    Parameters
-    ----------
-    kernel : PiecesKernel
-        The machine code.
-    start : State
-        Where it begins, in the law's frame; the rotors give their least force.
-    seed : int
-        Seed of its random numbers.
-    gains : dict
-        Values of the gains that are inputs; default those of the law.
-    """
+    """A flight that is flown piece by piece, by machine code; see `PiecesKernel.begin`."""
 
     def __init__(self, kernel: PiecesKernel, start: State, seed: int, gains: Mapping[str, float]) -> None:
         loop = kernel.loop
@@ -175,11 +166,6 @@ class PiecewiseFlight:
     def outcome(self) -> Outcome:
         """How and when the flight has ended; completed at its last tick while it goes on."""
         return outcome_of(self._loop, *(self._given[name] for name in ("status", "end", "part")))
-
-    @property
-    def status(self) -> str:
-        """How the flight has ended; "completed" while it goes on."""
-        return str(STATUS[self._given["status"][0]])
 
     @property
     def flying(self) -> bool:

@@ -211,18 +211,8 @@ def _segments(plant: Plant) -> list[tuple[int, float, int]]:
 def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
     """Return the kernel of `loop` for `criterion`, compiled or from the cache.
 
-    Parameters
-    ----------
-    loop : Loop
-        Vehicle, bound law, sampled plant, and the gains that may differ between runs; the flight computer's lead,
-        latency and observer may not.
-    criterion : Criterion
-        Success criterion.
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown, or the law has operations that cannot be compiled.
+    Lead, latency and observer of the flight computer may not be among the gains that differ between runs. Raises
+    InputError if a gain is unknown, or the law has operations that cannot be compiled.
     """
     compiled, common = _compiled(loop)
     if loop.sampled.engine == "mujoco":

@@ -15,7 +15,7 @@ from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_module
 from flypend.flight.live import tunable
-from flypend.flight.signals import Signals
+from flypend.flight.simulate import Signals
 from flypend.laws.references import circle
 from flypend.model.state import convert_packed
 from flypend.plants import plant
@@ -160,7 +160,7 @@ def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(
 
 
 def test_the_module_takes_two_things_and_gives_one(tmp_path):
-    (tmp_path / "kernel.wasm").write_bytes(web_module(loop_of("inverted"), fp.Criterion(), EXACT).code())
+    (tmp_path / "kernel.wasm").write_bytes(web_module(loop_of("inverted"), fp.Criterion(), EXACT))
     script = """
         const module = new WebAssembly.Module(require('fs').readFileSync('kernel.wasm'));
         const names = (list) => list.map(({ name }) => name).sort().join();

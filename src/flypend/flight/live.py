@@ -121,7 +121,8 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
     law, true = loop.symbolic, true_vehicle(loop)
     criterion = goal(law.e3)
     facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
-    deflated = zlib.compress(web_module(loop, criterion, exact, lanes).code(), 9, wbits=RAW)
+    told = reasons(loop) | {runge_kutta.TOO_MANY: "more integration steps than a page takes"}
+    deflated = zlib.compress(web_module(loop, criterion, exact, lanes), 9, wbits=RAW)
     return {
         "code": base64.b64encode(deflated).decode("ascii"),
         **facts,
@@ -133,7 +134,7 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
         "lyapunov": lyapunov_function(loop.vehicle, law, loop.parameters) is not None,
         "words": {
             "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSE, "hangs": HANGS,
-            "status": np.asarray(STATUS).tolist(), "reasons": _reasons(loop),
+            "status": np.asarray(STATUS).tolist(), "reasons": [told.get(code, "") for code in range(len(STATUS))],
             "touched": [[name, reason_of(loop.vehicle, i)] for i, name in enumerate(touchable(loop.vehicle))],
         },
     }  # fmt: skip
@@ -160,9 +161,3 @@ def _ideal(loop: Loop, exact: Tolerances) -> dict[str, Any]:
         "defects": [], "delay": 0.0, "period": PERIOD, "reductions": len(REDUCTIONS),
         "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps},
     }  # fmt: skip
-
-
-def _reasons(loop: Loop) -> list[str]:
-    """Why flights end early, by their status; what the rod touches is told elsewhere."""
-    told = reasons(loop) | {runge_kutta.TOO_MANY: "more integration steps than a page takes"}
-    return [told.get(code, "") for code in range(len(STATUS))]

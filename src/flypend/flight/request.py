@@ -163,7 +163,11 @@ class Flight:
             raise InputError("judge_period", f"at most the duration, {self.duration:g} s", f"{self.judge_period:g}")
         if self.seed is not None:
             check_seed("seed", self.seed)
-        put("plant", _plant_for(self.law, plants.plant(self.plant)))
+        plant = plants.plant(self.plant)
+        if isinstance(plant, Ideal) and isinstance(self.law, Controller):  # which is sampled
+            lag = None if plant.lag else 0.0
+            plant = Sampled(limits=plant.limits, lag=lag, rate=self.law.rate, floor=plant.floor)
+        put("plant", plant)
         put("law", Loop(self.vehicle, self.law, self.plant).law)
         if self.seed is None:
             put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)
@@ -285,13 +289,6 @@ class Flight:
         if isinstance(plant, Ideal) and np.ndim(plant.rotors) == 2:
             plant = replace(plant, rotors=plant.rotors[i])
         return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i, plant=plant)
-
-
-def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
-    """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
-    if isinstance(plant, Ideal) and isinstance(law, Controller):
-        return Sampled(limits=plant.limits, lag=None if plant.lag else 0.0, rate=law.rate, floor=plant.floor)
-    return plant
 
 
 def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:

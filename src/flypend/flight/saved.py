@@ -107,7 +107,9 @@ def check(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> t
     fields = {**FIELDS, **{name: Field(("t",), unit=UNITS.get(name, ""), finite=False) for name in signals}}
     fields |= {"drift": DRIFT} if "drift" in variables else {}
     arrays: dict[str, Any] = {"drift": np.zeros((0, len(DRIFT_OF))), **check_variables(fields, variables, lengths)}
-    _check_states(arrays)
+    if not len(t := arrays["t"]) or t[0] < 0 or np.any(np.diff(t) <= 0):
+        raise InputError("t", "increasing times from 0 on", f"{len(t)} that are not")
+    State(**{name: arrays[name] for name in SHAPES})  # raises for one that is none
     errors.one_of("outcome", about["outcome"], STATUSES)
     time = errors.number("outcome_time", about["outcome_time"], at_least=0, unit="s")
     run = dict(
@@ -132,11 +134,3 @@ def json_of(name: str, attributes: Mapping[str, Any], kind: type) -> Any:
     if not isinstance(found, kind):
         raise InputError(name, expected, repr(found)[:80])
     return found
-
-
-def _check_states(arrays: Mapping[str, Any]) -> None:
-    """Raise InputError unless times increase from 0 or later, and every state is one that `State` accepts."""
-    t = arrays["t"]
-    if not len(t) or t[0] < 0 or np.any(np.diff(t) <= 0):
-        raise InputError("t", "increasing times from 0 on", f"{len(t)} that are not")
-    State(**{name: arrays[name] for name in SHAPES})

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants, signals
 from flypend.compile.numeric import as_numpy
@@ -17,12 +18,11 @@ from flypend.flight.kernels import SampledKernel, has_kernel, kernel_of
 from flypend.flight.kernels.launch import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
 from flypend.flight.sampled import fly_stepwise
-from flypend.flight.signals import Signals
 from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import Numbers
 from flypend.laws import AnyLaw, BoundLaw
-from flypend.laws.closed_loop import ClosedLoop, close_loop
+from flypend.laws.closed_loop import ClosedLoop, close_loop, lyapunov_function, signal_names
 from flypend.laws.references import sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, convert_packed, project, split
@@ -194,3 +194,55 @@ def record_run(law: AnyLaw, vehicle: Vehicle, t: Numbers, packed: Numbers, wrenc
         "x_ref": None if law.reference is None else sample(law.reference, t),
     }  # fmt: skip
     return Trajectory(t=t, vehicle=vehicle, **known | more)
+
+
+class Signals(Mapping[str, NDArray[np.float64]]):
+    """Signals (n,) of `law` along a sampled flight by name, computed on first access.
+
+    Building the closed loop takes longer than a flight. V is computed without the rest, whose rates take most of that
+    time: it is all that a page asks for.
+
+    Parameters
+    ----------
+    vehicle, law
+        The ideal closed loop, along which rates such as V_rate are.
+    t : (n,)
+        Times, s.
+    packed : (n, 24)
+        States in the law's frame.
+    """
+
+    def __init__(self, vehicle: Vehicle, law: BoundLaw, t: NDArray[np.float64], packed: NDArray[np.float64]) -> None:
+        self._vehicle, self._law, self._t, self._packed = vehicle, law, t, packed
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
+        return signal_names(self._vehicle, self._law)
+
+    @cached_property
+    def _lyapunov(self) -> NDArray[np.float64] | None:
+        function = lyapunov_function(self._vehicle, self._law)
+        return None if function is None else np.array(function(self._t[None], self._packed.T, []))[0]
+
+    @cached_property
+    def _values(self) -> dict[str, NDArray[np.float64]]:
+        loop = close_loop(self._vehicle, self._law)
+        values = np.array(loop.outputs(self._t[None], self._packed.T))[4:]
+        return dict(zip(loop.signal_names, values, strict=True))
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if name not in self._names:
+            raise KeyError(name)
+        if name == "V" and self._lyapunov is not None:
+            return self._lyapunov
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as a plain dict: CasADi symbols cannot be pickled."""
+        return dict, (dict(self),)

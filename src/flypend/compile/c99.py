@@ -7,10 +7,9 @@ from typing import Literal
 
 import numpy as np
 
-from flypend.compile.matrices import Matrix
 from flypend.compile.program import Operation, Program
 from flypend.compile.routine import Call, Cell, Routine, stretches
-from flypend.compile.scratch import SPAN, scratch
+from flypend.compile.scratch import SPAN, Matrix, scratch
 from flypend.errors import InputError, one_of
 
 Precision = Literal["double", "float"]

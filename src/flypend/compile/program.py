@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any, NamedTuple
@@ -186,8 +187,9 @@ class _Builder:
     def do(self, name: str, *arguments: int) -> int:
         """Add the operation `name`, simplified; return its index."""
         values = [self._values[number] for number in arguments]
-        if None not in values and (folded := _fold(name, values)) is not None:
-            return self.constant(folded)
+        if None not in values:
+            with suppress(ArithmeticError, ValueError):  # undefined, such as division by zero
+                return self.constant(float(FOLD[name](*values)))
         if (simple := self._simplified(name, arguments, values)) is not None:
             return simple
         if name == "div":
@@ -283,14 +285,6 @@ class _Builder:
             self.operations.append(operation)
             self._values.append(operation.value if operation.name == "constant" else None)
         return self._known[known]
-
-
-def _fold(name: str, values: Sequence[float | None]) -> float | None:
-    """The value of operation `name` on constants; None if undefined, such as division by zero."""
-    try:
-        return float(FOLD[name](*values))
-    except (ArithmeticError, ValueError):
-        return None
 
 
 def drop_dead(program: Program) -> Program:

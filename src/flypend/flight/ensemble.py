@@ -277,7 +277,9 @@ def _member(flight: Flight, engine: str) -> Member:
     ends = judge[judge >= 0] if run.outcome.status == "completed" else np.append(judge[judge >= 0], len(run.t) - 1)
     columns = np.column_stack([run.packed, run.thrust, run.moment]) if flight.loop.lag else run.packed
     samples = np.where(keep[:, None] >= 0, columns[keep], np.nan)
-    return metrics(_take(run, np.unique(ends)), flight.criterion), run.packed[-1], samples
+    rows = {name: getattr(run, name)[np.unique(ends)] for name in ARRAYS}
+    judged = replace(run, **rows, signals={})  # metrics need no signals
+    return metrics(judged, flight.criterion), run.packed[-1], samples
 
 
 def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -287,11 +289,6 @@ def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArr
         wanted, t = nearest_ticks(wanted, flight.plant, flight.duration), np.rint(t * flight.plant.rate)
     place = np.minimum(np.searchsorted(t, wanted), len(t) - 1)
     return np.where(t[place] == wanted, place, -1)
-
-
-def _take(run: Trajectory, rows: NDArray[np.int64]) -> Trajectory:
-    """Return `run` restricted to some of its rows."""
-    return replace(run, **{name: getattr(run, name)[rows] for name in ARRAYS}, signals={})  # metrics need no signals
 
 
 def _can_be_sent(law: AnyLaw) -> bool:

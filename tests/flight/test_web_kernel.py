@@ -135,7 +135,7 @@ def test_what_changes_on_the_way_changes_it_as_in_the_package(tmp_path):
         here.append(flight.advance(ticks, piece["impulses"]))
     # The page keeps no knob that a piece does not tell; here all pieces tell the same ones.
     page, _ = flown_by_page(loop, start(), tmp_path, pieces)
-    assert flight.status == "completed"
+    assert flight.outcome.status == "completed"
     # Roundoff of two compilers, grown along a loop that is not stable by itself: 3.5e-9 in 4 of 84,028 numbers.
     np.testing.assert_allclose(page[0], np.concatenate(here), atol=1e-8)
 

@@ -121,7 +121,9 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
     law, true = loop.symbolic, true_vehicle(loop)
     criterion = goal(law.e3)
     facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
-    told = reasons(loop) | {runge_kutta.TOO_MANY: "more integration steps than a page takes"}
+    told = reasons(loop)
+    if runge_kutta.TOO_MANY in told:
+        told[runge_kutta.TOO_MANY] = "more integration steps than a page takes"
     deflated = zlib.compress(web_module(loop, criterion, exact, lanes), 9, wbits=RAW)
     return {
         "code": base64.b64encode(deflated).decode("ascii"),

@@ -25,7 +25,7 @@ import numpy as np
 
 import flypend as fp
 from benchmarks import cortex
-from flypend.compile.matrices import matrices
+from flypend.compile.scratch import matrices
 from flypend.export import vectors
 from flypend.export.interface import interface
 from flypend.export.library import CompiledBoard, library

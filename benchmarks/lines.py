@@ -14,10 +14,10 @@ import flypend as fp
 from benchmarks import clock
 from benchmarks.peak import flops_per_second
 from benchmarks.problem import Problem
-from flypend.compile.sampled_problem import EquationsProblem
+from flypend.compile.problem import EquationsProblem
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels import ideal_kernel, sampled_kernel
-from flypend.flight.kernels.ideal import Limits, Moments, call
+from flypend.flight.kernels.ideal import Moments, call
 from flypend.flight.kernels.sampled import sampled_problem
 from flypend.flight.request import Tolerances
 from flypend.plants import MOTION_CAPTURE, ROTORS, Ideal, Wind
@@ -68,11 +68,11 @@ def sampling(problem: Problem, share: float) -> Iterator[Line]:
     fly = partial(kernel.fly, starts, problem.duration, Tolerances(rtol=1e-6), workers=1)
     # The memory of the states comes from the operating system, which fills it with zeros first: that is told apart.
     there = fly(keep_at=times)
-    limits, nothing = Limits.of(problem.duration, Tolerances(rtol=1e-6)), np.zeros((len(starts), 0))
+    nothing, limits = np.zeros((len(starts), 0)), (problem.duration, Tolerances(rtol=1e-6))
     never = np.zeros(1, dtype=np.int64)
     tasks = [
         fly,
-        partial(call, kernel.function, starts, nothing, limits, Moments.of(keep_at=times), there, never),
+        partial(call, kernel.function, starts, nothing, *limits, Moments.of(keep_at=times), there, never),
         partial(fly, keep_at=times),
         partial(fly, judge_at=times),
     ]

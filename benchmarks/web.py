@@ -16,7 +16,7 @@ from playwright.sync_api import sync_playwright
 
 import flypend as fp
 from benchmarks.lab import OPTIONS
-from flypend.flight.live_engine import engine_facts, inflate
+from flypend.flight.live import engine_facts, inflate
 from flypend.flight.request import Tolerances
 from flypend.plants import plant
 from flypend.plants.loop import Loop

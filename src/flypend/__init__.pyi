@@ -10,10 +10,10 @@ from flypend.flight.criterion import Criterion as Criterion
 from flypend.flight.ensemble import Ensemble as Ensemble
 from flypend.flight.ensemble import simulate_ensemble as simulate_ensemble
 from flypend.flight.metrics import Metrics as Metrics
+from flypend.flight.metrics import Recovery as Recovery
 from flypend.flight.metrics import metrics as metrics
+from flypend.flight.metrics import recoveries as recoveries
 from flypend.flight.outcome import Outcome as Outcome
-from flypend.flight.recoveries import Recovery as Recovery
-from flypend.flight.recoveries import recoveries as recoveries
 from flypend.flight.request import Flight as Flight
 from flypend.flight.request import Tolerances as Tolerances
 from flypend.flight.sensitivity import Sensitivity as Sensitivity

@@ -18,10 +18,9 @@ from flypend.compile.c99 import (
     routine_scratch,
     statements,
 )
-from flypend.compile.matrices import matrices
 from flypend.compile.program import FOLD, Operation, Program, drop_dead, interpret, lower
 from flypend.compile.routine import lower_calls
-from flypend.compile.scratch import SPAN, TRUTHS, scratch
+from flypend.compile.scratch import SPAN, TRUTHS, matrices, scratch
 
 
 def _compiled(program, folder, precision="double"):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from flypend.flight.live_engine import engine_facts, inflate
+from flypend.flight.live import engine_facts, inflate
 from flypend.flight.request import Tolerances
 from flypend.laws import law_names
 from flypend.model.shipped import vehicle_names

@@ -10,7 +10,7 @@ from joblib.externals.loky import get_reusable_executor
 
 import flypend as fp
 from flypend import Plant
-from flypend.flight import members
+from flypend.flight import ensemble
 from flypend.flight.ensemble import Ensemble, simulate_ensemble
 from flypend.flight.metrics import Metrics, metrics, wilson
 from flypend.laws import Controller, corrected, inverted, printed
@@ -138,7 +138,7 @@ def test_the_frame_is_that_of_the_law(starts):
 @pytest.fixture
 def small_tasks(monkeypatch):
     """Two runs to a task, so that few starts are several tasks."""
-    monkeypatch.setattr(members, "CHUNK", 2)
+    monkeypatch.setattr(ensemble, "CHUNK", 2)
     monkeypatch.setattr("flypend.flight.kernels.flown.LEAST_SHARE", 2)
     monkeypatch.setattr("flypend.flight.kernels.sampled.PIECE", 2)
 
@@ -325,3 +325,13 @@ def test_gains_of_a_callable_that_does_not_take_them_are_refused():
     law = fp.Controller(name="push", function=lambda t, state: fp.Wrench(1.0, np.zeros(3)), gains={"k": 1.0})
     with pytest.raises(fp.InputError, match=r"^gains: "):
         simulate_ensemble(fp.vehicle("hehn2011"), law, fp.random_starts(2, 1), 0.1, gains={"k": [1.0, 2.0]})
+
+
+@pytest.mark.parametrize("engine", ["kernel", "scipy"])
+def test_through_a_lag_the_wrenches_at_the_kept_times_are_those_of_the_single_run(starts, engine):
+    times, plant = np.array([0.03, 0.1]), fp.Ideal(lag=True)
+    result = simulate_ensemble(VEHICLE, inverted(), starts[:2], 0.1, plant=plant, times=times, engine=engine, workers=1)
+    for i in range(2):
+        run = fp.simulate(VEHICLE, inverted(), starts[i], 0.1, plant=plant, times=times, engine=engine)
+        wanted = np.column_stack([run.thrust, run.moment])
+        np.testing.assert_allclose(result.wrenches[i], wanted, rtol=1e-7, atol=1e-9)  # other steps, same tolerance

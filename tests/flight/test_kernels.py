@@ -201,7 +201,7 @@ def test_a_singular_lane_ends_as_singular_and_its_neighbours_go_on():
 
 
 def test_a_run_that_needs_too_many_steps_ends(monkeypatch):
-    monkeypatch.setattr("flypend.flight.kernels.ideal.MAX_STEPS", 20)
+    monkeypatch.setattr("flypend.flight.request.MAX_STEPS", 20)
     flown = ideal_kernel(Loop(NAYAK, CORRECTED, Ideal())).fly(random_starts(9), DURATION, Tolerances(rtol=1e-9))
     assert np.all(flown.code == runge_kutta.TOO_MANY)
     assert np.all(flown.steps == 20)

@@ -183,7 +183,7 @@ def test_what_is_no_knob_and_no_gain_is_refused():
 def test_a_flight_that_has_ended_goes_nowhere():
     flight = pieces_kernel(loop_of(law=fp.laws.lqr()), CRITERION).begin(START)
     hit = flight.advance(100, [0, 0, 0, 0, 0, 1e9])
-    assert flight.status == "diverged"
+    assert flight.outcome.status == "diverged"
     assert not flight.flying
     assert np.isnan(hit[-1]).all()
     assert np.isnan(flight.advance(10)).all()

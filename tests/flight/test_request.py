@@ -379,3 +379,13 @@ def test_results_fit_a_screen():
         assert "\n" not in repr(thing)
     assert "throw_speed=2.0" in repr(law)
     assert " of 3 succeed" in repr(runs)
+
+
+def test_the_largest_number_of_steps_holds_for_every_engine_and_is_told():
+    flight = request(starts=batch()[0], duration=4.0, plant=Ideal(), tolerances=Tolerances(max_steps=5))
+    for engine in ("kernel", "scipy"):
+        outcome = fly(flight, engine).outcome
+        assert (outcome.status, outcome.reason) == ("diverged", "5 steps were not enough")
+    for wrong in (0, -3, 2.5, "many"):
+        with pytest.raises(fp.InputError, match=r"max_steps"):
+            Tolerances(max_steps=wrong)

@@ -5,7 +5,7 @@ import pickle
 import numpy as np
 
 import flypend as fp
-from flypend.flight import signals
+from flypend.flight import simulate as simulated
 from flypend.laws.closed_loop import close_loop
 from flypend.plants import Plant
 
@@ -66,7 +66,7 @@ def test_v_alone_is_the_v_of_the_whole_loop(monkeypatch):
     def refuse(*_):
         raise AssertionError("the closed loop is built")
 
-    monkeypatch.setattr(signals, "close_loop", refuse)
+    monkeypatch.setattr(simulated, "close_loop", refuse)
     run = fly("rotors")
     assert "V" in run.signals
     assert run.signals["V"].shape == run.t.shape

@@ -221,8 +221,7 @@ def test_outcomes_print_in_a_line():
 
 
 def test_the_integrator_stops_at_its_step_limit(monkeypatch):
-    monkeypatch.setattr("flypend.flight.integrate.MAX_STEPS", 5)
-    monkeypatch.setattr("flypend.flight.kernels.ideal.MAX_STEPS", 5)
+    monkeypatch.setattr("flypend.flight.request.MAX_STEPS", 5)
     for engine in ("kernel", "scipy"):
         run = fp.simulate(VEHICLE, law(push), TUMBLING, 4.0, engine=engine, plant="ideal")
         assert run.outcome.status == "diverged"

@@ -8,8 +8,7 @@ from by_page import DURATION, EXACT, OTHERS, PAIRS, ended_by_page, flown_by_page
 
 import flypend as fp
 from flypend.flight.kernels.ideal import ideal_kernel
-from flypend.flight.live import tunable
-from flypend.flight.live_engine import PERIOD
+from flypend.flight.live import PERIOD, tunable
 from flypend.flight.request import Tolerances
 from flypend.flight.verdict import goal
 from flypend.lab.flying import poke_state

@@ -15,7 +15,7 @@ from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_module
 from flypend.flight.live import tunable
-from flypend.flight.signals import Signals
+from flypend.flight.simulate import Signals
 from flypend.laws.references import circle
 from flypend.model.state import convert_packed
 from flypend.plants import plant
@@ -135,7 +135,7 @@ def test_what_changes_on_the_way_changes_it_as_in_the_package(tmp_path):
         here.append(flight.advance(ticks, piece["impulses"]))
     # The page keeps no knob that a piece does not tell; here all pieces tell the same ones.
     page, _ = flown_by_page(loop, start(), tmp_path, pieces)
-    assert flight.status == "completed"
+    assert flight.outcome.status == "completed"
     # Roundoff of two compilers, grown along a loop that is not stable by itself: 3.5e-9 in 4 of 84,028 numbers.
     np.testing.assert_allclose(page[0], np.concatenate(here), atol=1e-8)
 
@@ -160,7 +160,7 @@ def test_a_page_knows_the_lyapunov_function_of_the_gains_and_the_place_it_flies(
 
 
 def test_the_module_takes_two_things_and_gives_one(tmp_path):
-    (tmp_path / "kernel.wasm").write_bytes(web_module(loop_of("inverted"), fp.Criterion(), EXACT).code())
+    (tmp_path / "kernel.wasm").write_bytes(web_module(loop_of("inverted"), fp.Criterion(), EXACT))
     script = """
         const module = new WebAssembly.Module(require('fs').readFileSync('kernel.wasm'));
         const names = (list) => list.map(({ name }) => name).sort().join();

@@ -26,7 +26,7 @@ from flypend.errors import InputError
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import structure
 from flypend.flight.metrics import metrics
-from flypend.flight.signals import Signals
+from flypend.flight.simulate import Signals
 from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import goal, verdict
 from flypend.geometry import cross, dot

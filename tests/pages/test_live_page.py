@@ -14,7 +14,7 @@ import flypend as fp
 from benchmarks.frames import AT_REST, UNDRAWN
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
-from flypend.flight.signals import Signals
+from flypend.flight.simulate import Signals
 from flypend.flight.verdict import goal, verdict
 from flypend.lab.flying import poke_state
 from flypend.lab.setting import Poke

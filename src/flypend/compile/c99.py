@@ -7,10 +7,9 @@ from typing import Literal
 
 import numpy as np
 
-from flypend.compile.matrices import Matrix
 from flypend.compile.program import Operation, Program
 from flypend.compile.routine import Call, Cell, Routine, stretches
-from flypend.compile.scratch import SPAN, scratch
+from flypend.compile.scratch import SPAN, Matrix, scratch
 from flypend.errors import InputError, one_of
 
 Precision = Literal["double", "float"]
@@ -110,7 +109,10 @@ class _Statements:
     def _compute(self, number: int, operation: Operation) -> None:
         asked = _ASKS.get(operation.name, ())
         taken = [(self._truth if i in asked else self._number)(a, number) for i, a in enumerate(operation.arguments)]
-        text = _form(operation).format(*taken, **self._words)
+        form = _FORMS.get(operation.name) or _TRUTHS.get(operation.name)
+        if form is None:
+            raise InputError("law", "no function of the C library but the square root", operation.name)
+        text = form.format(*taken, **self._words)
         if operation.name in _TRUTHS:
             truth = self._truths[number] = self._defined("int", text)
             name = f"({truth} ? {self._words['one']} : {self._words['zero']})"
@@ -182,13 +184,6 @@ def _layer(matrix: Matrix, name: str, precision: Precision) -> str:
         "}",
     ]  # fmt: skip
     return _define(name, [f"const volatile {REAL} *in", f"volatile {REAL} *out"], body)
-
-
-def _form(operation: Operation) -> str:
-    form = _FORMS.get(operation.name) or _TRUTHS.get(operation.name)
-    if form is None:
-        raise InputError("law", "no function of the C library but the square root", operation.name)
-    return form
 
 
 def _constant(value: float, precision: Precision) -> str:

@@ -79,9 +79,13 @@ def load(entry: str) -> bytes | None:
     """
     try:
         with _open_folder(location()) as folder:
-            return _code(entry, folder.read(f"{entry}.o"))
+            content = folder.read(f"{entry}.o")
     except OSError:
         return None
+    begin = len(_HEAD) + 32
+    if content is None or content[:begin] != _digest(entry, content[begin:]):  # damaged, or another's under this name
+        return None
+    return content[begin:]
 
 
 def store(entry: str, code: bytes) -> None:
@@ -99,14 +103,6 @@ def store(entry: str, code: bytes) -> None:
         if _unseen > LOOK * place.limit:
             _unseen = 0
             _evict(folder, place.limit)
-
-
-def _code(entry: str, content: bytes | None) -> bytes | None:
-    """The code in the `content` of a file; None if it is damaged, or another's under this name."""
-    begin = len(_HEAD) + 32
-    if content is None or content[:begin] != _digest(entry, content[begin:]):
-        return None
-    return content[begin:]
 
 
 def _digest(entry: str, code: bytes) -> bytes:
@@ -139,7 +135,10 @@ def location() -> Place:
     $FLYPEND_CACHE_LIMIT is no size in MB, or the file that `move` writes is malformed, another user's, or others may
     write to it.
     """
-    limit = 1e6 * number(LIMIT_VARIABLE, _number(os.environ.get(LIMIT_VARIABLE) or LIMIT), at_least=0, unit="MB")
+    most: str | float = os.environ.get(LIMIT_VARIABLE) or LIMIT
+    with suppress(ValueError):
+        most = float(most)
+    limit = 1e6 * number(LIMIT_VARIABLE, most, at_least=0, unit="MB")
     if given := os.environ.get(VARIABLE):
         return Place(Path(given), VARIABLE, limit)
     settings = _settings()
@@ -150,13 +149,6 @@ def location() -> Place:
     except RuntimeError:  # no HOME, and no entry in the list of users
         return Place(_temporary(), "default", limit)
     return Place(found if found.is_absolute() else _temporary(), "default", limit)
-
-
-def _number(given: str | float) -> str | float:
-    try:
-        return float(given)
-    except ValueError:
-        return given
 
 
 @lru_cache(maxsize=1)
@@ -200,7 +192,12 @@ class Folder:
             raise
         with os.fdopen(file, "rb") as content:
             status = os.fstat(file)
-            if wrong := _foreign(status) or _why_shared(status):
+            wrong = _foreign(status)
+            if not stat.S_ISREG(status.st_mode):
+                wrong = wrong or "is no file"
+            elif status.st_nlink > 1:  # another user may have put it here under a second name
+                wrong = wrong or "has another name elsewhere"
+            if wrong:
                 _warn(self._path, wrong)
                 return None
             if time.time() - status.st_mtime > RECENT:
@@ -268,13 +265,6 @@ def _foreign(status: os.stat_result) -> str:
     if status.st_uid != os.geteuid():
         return f"belongs to user {status.st_uid}"
     return "others may write to" if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH) else ""
-
-
-def _why_shared(status: os.stat_result) -> str:
-    """Why it is no file, or one that another user may have put here under a second name; "" if neither."""
-    if not stat.S_ISREG(status.st_mode):
-        return "is no file"
-    return "has another name elsewhere" if status.st_nlink > 1 else ""
 
 
 @cache  # one line for all entries of a folder

@@ -1,4 +1,4 @@
-"""CasADi functions as NumPy callables without type conversion: 1 µs of overhead instead of 20 µs."""
+"""NumPy beside compiled code: arrays in cache lines, sorted numbers, and CasADi functions as callables on arrays."""
 
 from __future__ import annotations
 
@@ -8,12 +8,16 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+LINE = 64  # bytes of a cache line
 _lock = Lock()  # CasADi hands out the memory of a function
 
 
 def as_numpy(function: ca.Function) -> Callable[..., Any]:
     """Wrap a CasADi `function` with dense scalar or vector inputs and outputs as a callable on numbers and arrays.
+
+    Without CasADi's conversion of types, a call costs 1 µs instead of 20 µs.
 
     A single output is returned as an array (n,), several as a tuple of arrays. Every thread that calls it has buffers
     of its own.
@@ -53,3 +57,17 @@ def _buffer(function: ca.Function) -> Callable[..., Any]:
 
     call.keep = (function, buffer)  # type: ignore[attr-defined]  # `trigger` holds pointers into these: keep them alive
     return call
+
+
+def aligned(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
+    """Allocate an array at the start of a cache line, so that rows of eight doubles share no line."""
+    size = int(np.prod(shape)) * np.dtype(kind).itemsize
+    room = np.empty(size + LINE - 1, dtype=np.uint8)
+    first = -room.ctypes.data % LINE
+    return room[first : first + size].view(kind).reshape(shape)
+
+
+def distinct(values: ArrayLike) -> NDArray[Any]:
+    """Return `values` sorted, without duplicates. NumPy's own `unique` imports `numpy.ma`, a tenth of a cold start."""
+    found = np.sort(values, axis=None)
+    return found[np.append(True, found[1:] != found[:-1])] if len(found) else found

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -19,6 +22,9 @@ class Operation(NamedTuple):
     name: str
     arguments: tuple[int, ...] = ()
     value: float = 0.0
+
+
+ONE = Operation("constant", (), 1.0)
 
 
 @dataclass(frozen=True)
@@ -44,11 +50,13 @@ class Program:
 
     def counts(self) -> dict[str, int]:
         """Count the operations of each kind, without inputs and constants, in descending order."""
-        found: dict[str, int] = {}
-        for operation in self.operations:
-            if operation.name not in ("input", "constant"):
-                found[operation.name] = found.get(operation.name, 0) + 1
-        return dict(sorted(found.items(), key=lambda entry: -entry[1]))
+        names = (operation.name for operation in self.operations)
+        return dict(Counter(name for name in names if name not in ("input", "constant")).most_common())
+
+    def uses(self) -> Counter[int]:
+        """Count how often operations and outputs read each value."""
+        read = (number for operation in self.operations if operation.name != "input" for number in operation.arguments)
+        return Counter(chain(read, *self.outputs))
 
 
 def interpret(
@@ -93,16 +101,8 @@ FOLD: dict[str, Callable[..., float]] = {
     "select": lambda c, a: a if c != 0 else 0.0, **LIBRARY, **LIBRARY_2,
 }  # fmt: skip
 _COMMUTATIVE = {"add", "mul", "fmin", "fmax", "eq", "ne", "and", "or"}
-_CASADI = {
-    ca.OP_ADD: "add", ca.OP_SUB: "sub", ca.OP_MUL: "mul", ca.OP_DIV: "div", ca.OP_NEG: "neg", ca.OP_SQRT: "sqrt",
-    ca.OP_FABS: "fabs", ca.OP_FMIN: "fmin", ca.OP_FMAX: "fmax", ca.OP_SIGN: "sign", ca.OP_LT: "lt", ca.OP_LE: "le",
-    ca.OP_EQ: "eq", ca.OP_NE: "ne", ca.OP_NOT: "not", ca.OP_AND: "and", ca.OP_OR: "or", ca.OP_IF_ELSE_ZERO: "select",
-    ca.OP_SIN: "sin", ca.OP_COS: "cos", ca.OP_TAN: "tan", ca.OP_ASIN: "asin", ca.OP_ACOS: "acos", ca.OP_ATAN: "atan",
-    ca.OP_SINH: "sinh", ca.OP_COSH: "cosh", ca.OP_TANH: "tanh", ca.OP_ASINH: "asinh", ca.OP_ACOSH: "acosh",
-    ca.OP_ATANH: "atanh", ca.OP_EXP: "exp", ca.OP_LOG: "log", ca.OP_FLOOR: "floor", ca.OP_CEIL: "ceil",
-    ca.OP_ERF: "erf", ca.OP_POW: "pow", ca.OP_CONSTPOW: "pow", ca.OP_ATAN2: "atan2", ca.OP_FMOD: "fmod",
-    ca.OP_HYPOT: "hypot",
-}  # fmt: skip
+_CASADI = {getattr(ca, f"OP_{name.upper()}"): name for name in FOLD if name != "select"}
+_CASADI |= {ca.OP_IF_ELSE_ZERO: "select", ca.OP_CONSTPOW: "pow"}
 
 
 def lower(function: ca.Function) -> Program:
@@ -178,19 +178,19 @@ class _Builder:
             return self.do("div", self.constant(1.0), self._integer_power(base, -power))
         if power == 0:
             return self.constant(1.0)
-        half = self._integer_power(base, power // 2) if power > 1 else base
-        squared = self.do("mul", half, half) if power > 1 else base
-        return self.do("mul", squared, base) if power > 1 and power % 2 else squared
+        if power == 1:
+            return base
+        half = self._integer_power(base, power // 2)
+        squared = self.do("mul", half, half)
+        return self.do("mul", squared, base) if power % 2 else squared
 
     def do(self, name: str, *arguments: int) -> int:
         """Add the operation `name`, simplified; return its index."""
         values = [self._values[number] for number in arguments]
         if None not in values:
-            folded = _fold(name, values)
-            if folded is not None:
-                return self.constant(folded)
-        simple = self._simplified(name, arguments, values)
-        if simple is not None:
+            with suppress(ArithmeticError, ValueError):  # undefined, such as division by zero
+                return self.constant(float(FOLD[name](*values)))
+        if (simple := self._simplified(name, arguments, values)) is not None:
             return simple
         if name == "div":
             return self._quotient(*arguments)
@@ -287,14 +287,6 @@ class _Builder:
         return self._known[known]
 
 
-def _fold(name: str, values: Sequence[float | None]) -> float | None:
-    """The value of operation `name` on constants; None if undefined, such as division by zero."""
-    try:
-        return float(FOLD[name](*values))
-    except (ArithmeticError, ValueError):
-        return None
-
-
 def drop_dead(program: Program) -> Program:
     """Remove the operations of `program` that no output depends on (dead code)."""
     used = {number for vector in program.outputs for number in vector}
@@ -316,22 +308,12 @@ def drop_dead(program: Program) -> Program:
 def _restore_divisions(program: Program) -> Program:
     """Turn products with a reciprocal that has no other use back into divisions."""
     operations = list(program.operations)
-    uses = [0] * len(operations)
-    for operation in operations:
-        if operation.name != "input":
-            for number in operation.arguments:
-                uses[number] += 1
-    for number in (number for vector in program.outputs for number in vector):
-        uses[number] += 1
+    uses = program.uses()
     for place, operation in enumerate(operations):
         if operation.name == "mul":
             for numerator, reciprocal in (operation.arguments, operation.arguments[::-1]):
                 inverse = operations[reciprocal]
-                if inverse.name == "div" and uses[reciprocal] == 1 and _is_one(operations[inverse.arguments[0]]):
+                if inverse.name == "div" and uses[reciprocal] == 1 and operations[inverse.arguments[0]] == ONE:
                     operations[place] = Operation("div", (numerator, inverse.arguments[1]))
                     break
     return drop_dead(Program(program.name, program.inputs, tuple(operations), program.outputs))
-
-
-def _is_one(operation: Operation) -> bool:
-    return operation.name == "constant" and operation.value == 1.0

@@ -42,23 +42,20 @@ class Record:
 
     def members(self, access: str) -> list[str]:
         """C expressions of its numbers in order, behind `access`, such as `state->`."""
-        return [name for field in self.fields for name in _members(field, access)]
+        each = ([f"{access}{field.name}[{i}]" for i in range(field.size)] for field in self.fields)
+        return [text for field, texts in zip(self.fields, each, strict=True) for text in texts or [access + field.name]]
 
     def places(self) -> Iterator[tuple[Field, slice]]:
         """Its fields, each with its place among the numbers."""
-        return _places(self.fields, 0)
+        return ((field, where) for path, field, where in _walk(self.fields) if path == field.name)
 
     def leaves(self) -> Iterator[tuple[str, Field, slice]]:
         """Its innermost fields, each with its path, such as "delay.found", and its place among the numbers."""
-        return _leaves(self.fields, 0, "")
+        return (found for found in _walk(self.fields) if not found[1].parts)
 
     def place(self, path: str) -> slice:
         """Return where the numbers of the field at `path` lie, such as "delay" or "delay.found"."""
-        fields, start = self.fields, 0
-        for name in path.split("."):
-            field, where = next(found for found in _places(fields, start) if found[0].name == name)
-            fields, start = field.parts, where.start
-        return where
+        return next(where for name, _, where in _walk(self.fields) if name == path)
 
     def split(self, numbers: Any) -> dict[str, Any]:
         """Return the numbers of each field, by name; of a field of size 0 the one number."""
@@ -69,19 +66,10 @@ class Record:
         return ca.vertcat(*(values[field.name] for field in self.fields))
 
 
-def _members(field: Field, access: str) -> list[str]:
-    return [f"{access}{field.name}[{i}]" for i in range(field.size)] or [f"{access}{field.name}"]
-
-
-def _places(fields: tuple[Field, ...], start: int) -> Iterator[tuple[Field, slice]]:
+def _walk(fields: tuple[Field, ...], start: int = 0, above: str = "") -> Iterator[tuple[str, Field, slice]]:
+    """Yield path and place of each field, followed by those of its parts."""
     for field in fields:
-        yield field, slice(start, start + max(field.size, 1))
-        start += max(field.size, 1)
-
-
-def _leaves(fields: tuple[Field, ...], start: int, above: str) -> Iterator[tuple[str, Field, slice]]:
-    for field, where in _places(fields, start):
-        if field.parts:
-            yield from _leaves(field.parts, where.start, f"{above}{field.name}.")
-        else:
-            yield f"{above}{field.name}", field, where
+        where = slice(start, start + max(field.size, 1))
+        yield above + field.name, field, where
+        yield from _walk(field.parts, start, f"{above}{field.name}.")
+        start = where.stop

@@ -6,7 +6,7 @@ large for a processor's cache or a microcontroller's flash. With calls, each pro
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -176,8 +176,7 @@ class _Builder:
         names = [program.name for program in self._programs]
         if len(set(names)) < len(names):
             raise ValueError(f"{function.name()} calls different functions with one name: {sorted(names)}")
-        last = self._last_reads(outputs)
-        places, lengths = self._places(last)
+        places, lengths = self._places(outputs)
 
         def moved(cells: Sequence[Cell]) -> tuple[Cell, ...]:
             return tuple(c._replace(number=places[c.number]) if c.memory == "call" else c for c in cells)
@@ -189,32 +188,30 @@ class _Builder:
         sizes = tuple(function.nnz_in(i) for i in range(function.n_in()))
         return Routine(function.name(), sizes, tuple(self._programs), calls, lengths, tuple(map(moved, outputs)))
 
-    def _last_reads(self, outputs: list[list[Cell]]) -> dict[int, int]:
-        """Index of the last call that reads each buffer; buffers read by the outputs outlive all calls."""
-        last: dict[int, int] = {}
-        for i, call in enumerate(self._calls):
-            last |= {cell.number: i for cells in call.inputs for cell in cells if cell.memory == "call"}
-        return last | {cell.number: len(self._calls) for cells in outputs for cell in cells if cell.memory == "call"}
-
-    def _places(self, last: dict[int, int]) -> tuple[dict[int, int], tuple[int, ...]]:
+    def _places(self, outputs: list[list[Cell]]) -> tuple[dict[int, int], tuple[int, ...]]:
         """Assign each buffer a slot, and return the lengths of the slots.
 
         An output never reuses the slot of an input of its own call: C copies from one to the other (`c99.copies`).
         """
-        free: dict[int, list[int]] = {}
+        # What each call reads; buffers read by the outputs outlive all calls.
+        reads = [_buffers(call.inputs) for call in self._calls] + [_buffers(outputs)]
+        last = {number: i for i, numbers in enumerate(reads) for number in numbers}
+        free: defaultdict[int, list[int]] = defaultdict(list)
         places: dict[int, int] = {}
         lengths: list[int] = []
         for i, call in enumerate(self._calls):
             for number in call.outputs:
                 length = self._lengths[number]
-                known = free.get(length)
-                if known:
-                    places[number] = known.pop()
-                else:
-                    places[number] = len(lengths)
+                if not free[length]:
+                    free[length].append(len(lengths))
                     lengths.append(length)
-            read = {cell.number for cells in call.inputs for cell in cells if cell.memory == "call"}
+                places[number] = free[length].pop()
             never = [number for number in call.outputs if number not in last]
-            for number in (*sorted(n for n in read if last[n] == i), *never):
-                free.setdefault(self._lengths[number], []).append(places[number])
+            for number in (*sorted(n for n in reads[i] if last[n] == i), *never):
+                free[self._lengths[number]].append(places[number])
         return places, tuple(lengths)
+
+
+def _buffers(vectors: Sequence[Sequence[Cell]]) -> set[int]:
+    """Numbers of the outputs of calls in `vectors`."""
+    return {cell.number for cells in vectors for cell in cells if cell.memory == "call"}

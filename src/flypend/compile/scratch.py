@@ -1,15 +1,17 @@
-"""Which values of a straight-line program are kept in memory of the caller's, and where.
+"""What generated code keeps in memory of the caller's, and where: values of a straight-line program, and vectors.
 
 A compiler keeps what a program of thousands of statements needs later on the stack: a kilobyte or two, where the
-control task of a flight controller has little more. Generated code therefore stores such values itself.
+control task of a flight controller has little more. Generated code therefore stores such values itself. The vectors are
+those of products with constant matrices, layers of a network, which are found again in the scalars of a program: code
+writes them as a table and a loop instead of a statement for every weight.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from heapq import heappop, heappush
 
-from flypend.compile.matrices import Matrix, matrices
 from flypend.compile.program import Operation, Program
 
 # Statements after which a value is read from memory again; between them a compiler has registers, or the stack. Of 16,
@@ -18,6 +20,7 @@ from flypend.compile.program import Operation, Program
 SPAN = 48
 # Operations whose value is true or false: integers, for which a processor has other registers, and enough of them.
 TRUTHS = ("lt", "le", "eq", "ne", "not", "and", "or")
+LEAST = 64  # weights of a matrix; fewer are as short without a loop
 
 
 class Scratch:
@@ -58,7 +61,10 @@ class Scratch:
             while taken and taken[0][0] < number:
                 free.append(heappop(taken)[1])
             if number in self._first:
-                self._put_vectors(self._first[number])
+                matrix = self._first[number]
+                self.vectors.append(self._more(len(matrix.columns)))
+                rows = self._more(len(matrix.rows))
+                self.places |= {row: rows + i for i, row in enumerate(matrix.rows)}
             elif (
                 number not in self.inner
                 and operation.name not in ("input", "constant", *TRUTHS)
@@ -81,11 +87,6 @@ class Scratch:
             return self._first[number].columns
         return () if number in self.inner or operation.name == "input" else operation.arguments
 
-    def _put_vectors(self, matrix: Matrix) -> None:
-        self.vectors.append(self._more(len(matrix.columns)))
-        rows = self._more(len(matrix.rows))
-        self.places |= {row: rows + i for i, row in enumerate(matrix.rows)}
-
     def _more(self, count: int) -> int:
         """The first of `count` new places."""
         self.size += count
@@ -96,3 +97,77 @@ class Scratch:
 def scratch(program: Program) -> Scratch:
     """Return the places of `program`, found once for its function and for each call of it."""
     return Scratch(program)
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """The sums Σⱼ Wᵢⱼ xⱼ of a program, each taken in the order of its columns.
+
+    Parameters
+    ----------
+    rows : tuple of int
+        Numbers of the operations that are these sums, ascending.
+    columns : tuple of int
+        Numbers of the operations xⱼ.
+    weights : tuple of tuple of float
+        Wᵢⱼ.
+    inner : frozenset of int
+        Numbers of the operations that nothing else needs: products and partial sums.
+    """
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    weights: tuple[tuple[float, ...], ...]
+    inner: frozenset[int]
+
+
+def matrices(program: Program) -> list[Matrix]:
+    """Return the products with constant matrices in `program`, by their first rows; rounding stays as it is."""
+    uses = program.uses()
+    sums: dict[int, list[int]] = {}  # of products, in order: by the operation that ends them
+    for number, operation in enumerate(program.operations):
+        if operation.name != "add":
+            continue
+        for before, last in (operation.arguments, operation.arguments[::-1]):
+            if not (uses[last] == 1 and _weight_of(program, last)):
+                continue
+            if before in sums and uses[before] == 1:
+                sums[number] = [*sums.pop(before), last]
+            elif uses[before] == 1 and _weight_of(program, before):
+                sums[number] = [before, last]
+            else:
+                continue
+            break
+    groups: dict[tuple[int, ...], list[int]] = {}
+    for root, products in sums.items():
+        groups.setdefault(tuple(_weight_of(program, product)[1] for product in products), []).append(root)  # type: ignore[index]
+    found = [
+        _matrix(program, sorted(roots), columns, [sums[root] for root in sorted(roots)])
+        for columns, roots in groups.items()
+        if len(roots) > 1 and len(roots) * len(columns) >= LEAST
+    ]
+    return sorted(found, key=lambda matrix: matrix.rows)
+
+
+def _weight_of(program: Program, number: int) -> tuple[float, int] | None:
+    """Return weight and variable if the operation is the product of a constant and a variable."""
+    operation = program.operations[number]
+    if operation.name != "mul":
+        return None
+    for a, b in (operation.arguments, operation.arguments[::-1]):
+        if program.operations[a].name == "constant" and program.operations[b].name != "constant":
+            return program.operations[a].value, b
+    return None
+
+
+def _matrix(program: Program, rows: list[int], columns: tuple[int, ...], products: list[list[int]]) -> Matrix:
+    """Return the product (rows, inner) · (inner, columns) that the partial sums `products` of the `rows` make."""
+    inner = set()
+    for root, row in zip(rows, products, strict=True):
+        inner |= set(row)
+        last = root
+        for _ in row[2:]:  # back along the partial sums
+            last = next(place for place in program.operations[last].arguments if place not in row)
+            inner.add(last)
+    weights = tuple(tuple(_weight_of(program, product)[0] for product in row) for row in products)  # type: ignore[index]
+    return Matrix(tuple(rows), columns, weights, frozenset(inner))

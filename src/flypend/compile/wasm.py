@@ -9,7 +9,6 @@ takes from its `Math`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 HEAD = b"\0asm\1\0\0\0"
 CUSTOM, EXPORT = 0, 7
@@ -21,40 +20,31 @@ _FUNCTION, _DATA, _SECTION = 0, 1, 3
 _UNDEFINED, _NAMED = 0x10, 0x40
 
 
-class Section(NamedTuple):
-    """A section of a module: its `number` in the standard, and its `content`."""
-
-    number: int
-    content: bytes
-
-
 def module(code: bytes, exports: Sequence[str]) -> bytes:
     """Return the WebAssembly module of the object file `code`, with its functions `exports` exported.
 
     Raises ValueError if the object lacks a function.
     """
     sections = _sections(code)
-    places: dict[str, int] = {}
-    for section in sections:
-        if section.number == CUSTOM:
-            places.update(_functions(section.content))
+    places = dict(found for number, content in sections if number == CUSTOM for found in _functions(content))
     for name in exports:
         if name not in places:
             raise ValueError(f"one of the functions {', '.join(places)} is needed, not {name!r}")
     listed = b"".join(_text(name) + bytes([_FUNCTION]) + _encode_unsigned(places[name]) for name in exports)
-    kept = [section for section in sections if section.number != CUSTOM]
-    kept.append(Section(EXPORT, _encode_unsigned(len(exports)) + listed))
-    kept.sort(key=lambda section: _ORDER[section.number])
+    kept = [section for section in sections if section[0] != CUSTOM]
+    kept.append((EXPORT, _encode_unsigned(len(exports)) + listed))
+    kept.sort(key=lambda section: _ORDER[section[0]])
     return HEAD + b"".join(bytes([number]) + _encode_unsigned(len(content)) + content for number, content in kept)
 
 
-def _sections(code: bytes) -> list[Section]:
+def _sections(code: bytes) -> list[tuple[int, bytes]]:
+    """The sections of a module: their numbers in the standard, and their contents."""
     if not code.startswith(HEAD):
         raise ValueError("an object file of WebAssembly is needed")
     reader, found = _Reader(code, len(HEAD)), []
     while reader.left():
         number = reader.byte()
-        found.append(Section(number, reader.taken(reader.unsigned())))
+        found.append((number, reader.taken(reader.unsigned())))
     return found
 
 

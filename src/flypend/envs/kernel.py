@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
-from flypend.compile.worlds_problem import WorldsProblem
+from flypend.compile.numeric import aligned
+from flypend.compile.problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
-from flypend.flight.kernels.flown import allocate
 
 WIDTH = 8
 # Fewest groups of worlds worth a thread: a hundred microseconds of work.
@@ -65,7 +65,7 @@ if hasattr(os, "register_at_fork"):  # a forked process has none of the threads
 
 def _own(array: NDArray[Any]) -> NDArray[Any]:
     """Return a copy of `array` at the start of a cache line: JAX copies any other."""
-    own: NDArray[Any] = allocate(array.shape, array.dtype)
+    own: NDArray[Any] = aligned(array.shape, array.dtype)
     own[...] = array
     return own
 

@@ -9,8 +9,8 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
+from flypend.compile.problem import WorldsProblem
 from flypend.compile.program import lower
-from flypend.compile.worlds_problem import WorldsProblem
 from flypend.envs.draws import Draws
 from flypend.envs.randomise import Randomisation, Varied
 from flypend.envs.sensing import Estimates

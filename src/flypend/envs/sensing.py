@@ -12,9 +12,9 @@ import numpy as np
 from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE, command_width, idle_command
 from flypend.board.estimator import Filter
+from flypend.compile.problem import Estimating
 from flypend.compile.program import lower
 from flypend.compile.record import Field, Record
-from flypend.compile.worlds_problem import Estimating
 from flypend.errors import InputError
 from flypend.laws import Controller
 from flypend.model import Vehicle, Wrench

@@ -81,15 +81,17 @@ class Criterion:
         return rod, ca.sumsqr(z - E3) - (self.axis + lean) ** 2
 
 
-def lean(acceleration: Vector, g: float) -> Scalar:
+def lean(acceleration: Vector, g: float, e3: E3Direction = "up") -> Scalar:
     """Return |d − e₃|, d being the direction of `acceleration` + g e₃ (e₃ up): the lean needed to follow a reference.
+
+    The `acceleration` is given in the frame `e3`.
 
     On a circle, rod and axis lean slightly less, since the bob's circle is smaller than the pivot's. On a horizontal
     reference the result stays below √2, so a hanging rod never passes.
     """
     symbolic = is_symbolic(acceleration)
     a = [acceleration[i] if symbolic else acceleration[..., i] for i in range(3)]
-    level, up = a[0] ** 2 + a[1] ** 2, g + a[2]
+    level, up = a[0] ** 2 + a[1] ** 2, g + a[2] * (1.0 if e3 == "up" else -1.0)
     length = (level + up**2) ** 0.5
     # 1 − d·e₃ without cancellation for small leans: level / (length (length + up)).
     return (2 * level / (length * (length + up))) ** 0.5
@@ -138,5 +140,4 @@ def _target(t: Scalar, vehicle: Vehicle, reference: Reference | None, e3: E3Dire
     """Return the position (3, 1) of `reference` at `t` and the lean that it requires, 0 unless it accelerates."""
     x_ref = reference(t) if reference is not None else ca.SX.zeros(3)
     velocity = ca.jacobian(x_ref, t)
-    a_ref = ca.densify(ca.jacobian(velocity, t)) * (1.0 if e3 == "up" else np.array([1.0, -1.0, -1.0]))
-    return x_ref, lean(a_ref, vehicle.g) if ca.depends_on(velocity, t) else 0.0
+    return x_ref, lean(ca.densify(ca.jacobian(velocity, t)), vehicle.g, e3) if ca.depends_on(velocity, t) else 0.0

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,22 +12,27 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants, signals
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels import Flown, fly_all, has_kernel
+from flypend.flight.kernels import fly_all, has_kernel
+from flypend.flight.kernels.flown import Progress
 from flypend.flight.labelled import dataset, describe, state_variables, variable
-from flypend.flight.members import fly_members
-from flypend.flight.metrics import Metrics, judge, wilson
+from flypend.flight.metrics import Metrics, judge, metrics, wilson
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, check_batch, some_times
 from flypend.flight.sampled import nearest_ticks
-from flypend.flight.simulate import ENGINES
+from flypend.flight.saved import ARRAYS
+from flypend.flight.simulate import ENGINES, fly
+from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
 from flypend.plants import AnyPlant, Sampled
+from flypend.signals import waiting
 
 if TYPE_CHECKING:
     import xarray
 
-Progress = Callable[[int, int], Any]
+# Runs per task. A task compiles the law once, at a fraction of the cost of a run.
+CHUNK = 8
+Member = tuple[Metrics, NDArray[np.float64], Any]  # of a run: metrics, final state (24,), and its samples, or None
 
 
 @errors.named_arguments
@@ -198,49 +204,99 @@ def fly_many(
     Raises InputError if the engine lacks what the flight requires.
     """
     errors.one_of("engine", engine, ENGINES)
-    if engine == "scipy" or not has_kernel(flight):
-        steered = isinstance(flight.law, Controller)
-        exact = flight.tolerances
-        asked = {
-            "gains": flight.gains and not steered,
-            "method": exact.method,
-            "precision": exact.precision != "double",
-        }
-        for name, value in asked.items():
-            if value:
-                raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")
-        return _one_by_one(flight, engine, workers, progress)
-    return _gather(flight, fly_all(flight, workers=workers, progress=progress))
+    if engine == "kernel" and has_kernel(flight):
+        flown = fly_all(flight, workers=workers, progress=progress)
+        columns = judge(
+            flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance
+        )
+        return _gather(flight, columns, flown.final, flown.samples)
+    exact = flight.tolerances
+    asked = {
+        "gains": flight.gains and not isinstance(flight.law, Controller),
+        "method": exact.method,
+        "precision": exact.precision != "double",
+    }
+    for name, value in asked.items():
+        if value:
+            raise errors.InputError(name, "an engine with compiled code, for a symbolic law", "another")
+    return _one_by_one(flight, engine, workers, progress)
 
 
-def _gather(flight: Flight, flown: Flown) -> Ensemble:
-    columns = judge(
-        flown.reductions, flown.status, flown.end, flight.vehicle, flight.criterion, clearance=flown.clearance
-    )
-    samples = None if flown.samples is None else State.trusted(flown.samples[..., :SIZE])
-    return Ensemble(
-        starts=flight.starts, final=State.trusted(flown.final), **columns, **_about(flight),
-        samples=samples, wrenches=flown.samples[..., SIZE:] if flight.loop.lag and samples is not None else None,
-    )  # fmt: skip
+def _gather(flight: Flight, columns: Mapping[str, Any], final: Any, samples: Any) -> Ensemble:
+    """Return the ensemble of runs with these fields of `Metrics`, final states (n, 24) and, if kept, `samples`.
 
-
-def _about(flight: Flight) -> dict[str, Any]:
-    """Return the fields of an ensemble that specify what was flown and when it was sampled."""
+    The samples (n, k, 24 or more) are states, followed by the wrench that acts in the ideal plant with lag.
+    """
     law, plant, t = flight.law, flight.plant, flight.times
     if t is not None and isinstance(plant, Sampled):
         t = nearest_ticks(t, plant, flight.duration) / plant.rate
-    gains = {**law.gains, **flight.gains}
-    return {"e3": law.e3, "vehicle": flight.vehicle, "law": law.name, "gains": gains, "t": t}
+    kept = samples is not None
+    return Ensemble(
+        starts=flight.starts, final=State.trusted(final), **columns, e3=law.e3, vehicle=flight.vehicle, law=law.name,
+        gains={**law.gains, **flight.gains}, t=t, samples=State.trusted(samples[..., :SIZE]) if kept else None,
+        wrenches=samples[..., SIZE:] if kept and flight.loop.lag else None,
+    )  # fmt: skip
+
+
+# Flights without a kernel, in one process per core --------------------------------------------------------------------
 
 
 def _one_by_one(flight: Flight, engine: str, workers: int | None, progress: Progress) -> Ensemble:
-    """Like `fly_many`, by single runs in one process per core."""
-    members = fly_members(flight, engine, workers, progress)
-    columns: dict[str, Any] = {
-        entry.name: np.array([getattr(member.metrics, entry.name) for member in members]) for entry in fields(Metrics)
-    }
-    kept = flight.times is not None
-    return Ensemble(
-        starts=flight.starts, final=State.trusted(np.array([member.final for member in members])), **columns,
-        **_about(flight), samples=State.trusted(np.array([member.samples for member in members])) if kept else None,
-    )  # fmt: skip
+    """Like `fly_many`, by single runs."""
+    members: list[Member] = []
+    for part in _chunks(flight, engine, workers or os.cpu_count() or 1):
+        members += part
+        progress(len(members), flight.runs)
+    judged, final, samples = zip(*members, strict=True)
+    columns = {entry.name: np.array([getattr(one, entry.name) for one in judged]) for entry in fields(Metrics)}
+    return _gather(flight, columns, np.array(final), None if flight.times is None else np.array(samples))
+
+
+def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member]]:
+    """Yield chunks of members, in the order of the starts."""
+
+    def chunk(indices: range) -> list[Member]:
+        return [_member(flight.member(i), engine) for i in indices]
+
+    chunks = [range(i, min(i + CHUNK, flight.runs)) for i in range(0, flight.runs, CHUNK)]
+    if processes == 1 or len(chunks) == 1 or not _can_be_sent(flight.law):
+        yield from (chunk(indices) for indices in chunks)
+    else:
+        with waiting.processes(processes) as submit:
+            for call in [submit(chunk, indices) for indices in chunks]:
+                yield waiting.result_of(call)
+
+
+def _member(flight: Flight, engine: str) -> Member:
+    """Fly one run, sampled at the criterion's times and at the flight's `times`; the two do not affect each other."""
+    if flight.times is None:
+        run = fly(flight, engine)
+        return metrics(run, flight.criterion), run.packed[-1], None
+    run = fly(flight.replace(times=np.union1d(flight.grid, flight.times)), engine)
+    judge, keep = (_rows(flight, run, wanted) for wanted in (flight.grid, flight.times))
+    ends = judge[judge >= 0] if run.outcome.status == "completed" else np.append(judge[judge >= 0], len(run.t) - 1)
+    columns = np.column_stack([run.packed, run.thrust, run.moment]) if flight.loop.lag else run.packed
+    samples = np.where(keep[:, None] >= 0, columns[keep], np.nan)
+    rows = {name: getattr(run, name)[np.unique(ends)] for name in ARRAYS}
+    judged = replace(run, **rows, signals={})  # metrics need no signals
+    return metrics(judged, flight.criterion), run.packed[-1], samples
+
+
+def _rows(flight: Flight, run: Trajectory, wanted: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the rows of `run` at the times `wanted`; -1 for times after its end."""
+    t = run.t
+    if isinstance(flight.plant, Sampled):
+        wanted, t = nearest_ticks(wanted, flight.plant, flight.duration), np.rint(t * flight.plant.rate)
+    place = np.minimum(np.searchsorted(t, wanted), len(t) - 1)
+    return np.where(t[place] == wanted, place, -1)
+
+
+def _can_be_sent(law: AnyLaw) -> bool:
+    """Whether `law` can be pickled; not if it holds a loaded C library or CasADi symbols."""
+    import cloudpickle
+
+    try:
+        cloudpickle.dumps(law)
+    except Exception:  # CasADi raises nothing narrower
+        return False
+    return True

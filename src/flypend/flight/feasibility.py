@@ -15,7 +15,7 @@ the customary limit of 2 on the peak, w (T + τ) may be ln 2.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def feasibility(vehicle: Vehicle, delay: float = 0.0) -> Feasibility:
         impossible.append(f"{rotors} rotors push at least {rotors * low:.4g} N, the weight is only {weight:.4g} N")
     ratio = rotors * high / weight if weight > 0 else np.inf
     found = Feasibility(float(ratio), w, float(agility), lag_ratio, float(catch), tuple(impossible), ())
-    return found if impossible else Feasibility(**{**vars(found), "doubtful": _doubts(found, vehicle, delay)})
+    return found if impossible else replace(found, doubtful=_doubts(found, vehicle, delay))
 
 
 def forewarn(flight: Flight) -> tuple[str, ...]:

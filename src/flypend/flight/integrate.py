@@ -12,10 +12,9 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from flypend import signals
-from flypend.flight.outcome import Outcome
+from flypend.flight.outcome import LEFT, NOT_ENOUGH, UNDEFINED, Outcome
+from flypend.flight.request import MAX_STEPS
 from flypend.model.state import MAX_STATE, project
-
-MAX_STEPS = 1_000_000
 
 Rates = Callable[[float, Any], Any]
 Margin = Callable[[float, Any], float]
@@ -49,6 +48,7 @@ def integrate(
     *,
     rtol: float,
     atol: float,
+    max_steps: int = MAX_STEPS,
     margin: Margin | None = None,
     margin_reason: str = "",
     touch: Callable[[Any], tuple[float, str] | None] = lambda _: None,
@@ -59,16 +59,16 @@ def integrate(
     `margin(t, state)` stops being positive, the run ends as singular, with `margin_reason`; if `touch`, given the
     interpolant of a step or, at the start, of none, returns a time and a reason, it ends then as collided.
     """
+
+    def unflown(outcome: Outcome) -> Integration:
+        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), outcome)
+
     if margin is not None and margin(0.0, start) <= 0:
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), Outcome("singular", 0.0, margin_reason))
-
+        return unflown(Outcome("singular", 0.0, margin_reason))
     if not np.all(np.isfinite(rates(0.0, start))):
-        reason = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), Outcome("singular", 0.0, reason))
-
+        return unflown(Outcome("singular", 0.0, UNDEFINED))
     if (hit := touch(None)) is not None:
-        return Integration(np.zeros(1), (), start, np.zeros((0, 3)), Outcome("collided", *hit))
-
+        return unflown(Outcome("collided", *hit))
     knots: list[float] = [0.0]
     interpolants: list[Any] = []
     drifts: list[Any] = []
@@ -78,8 +78,7 @@ def integrate(
         while outcome is None:
             signals.poll()
             message = solver.step()
-            outcome = _lost(solver, message, len(interpolants))
-            if outcome is not None:
+            if (outcome := _lost(solver, message, len(interpolants), max_steps)) is not None:
                 break
             interpolants.append(solver.dense_output())
             knots.append(solver.t)
@@ -98,23 +97,20 @@ def integrate(
     return Integration(np.array(knots), tuple(interpolants), start, drift, outcome)
 
 
-def _lost(solver: DOP853, message: str | None, steps: int) -> Outcome | None:
+def _lost(solver: DOP853, message: str | None, steps: int, max_steps: int) -> Outcome | None:
     """Return the outcome of a run whose last step failed or left all bounds; None if it continues."""
     if solver.status == "failed":
         return Outcome("diverged", solver.t, f"{message} Loosen rtol, or inspect the state before this time.")
     if not (np.all(np.isfinite(solver.y)) and np.max(np.abs(solver.y)) < MAX_STATE):
-        return Outcome("diverged", solver.t_old, f"the state left |s| < {MAX_STATE:g}")
-    if steps >= MAX_STEPS:
-        return Outcome("diverged", solver.t_old, f"{MAX_STEPS} steps were not enough")
+        return Outcome("diverged", solver.t_old, LEFT)
+    if steps >= max_steps:
+        return Outcome("diverged", solver.t_old, f"{max_steps} {NOT_ENOUGH}")
     return None
 
 
 def _crossing(margin: Margin, interpolant: Any) -> float:
     """Return the time within the step of `interpolant` at which `margin` reaches zero, to 1e-12 s."""
-    before, after = (
-        margin(interpolant.t_old, interpolant(interpolant.t_old)),
-        margin(interpolant.t, interpolant(interpolant.t)),
-    )
+    before, after = (margin(t, interpolant(t)) for t in (interpolant.t_old, interpolant.t))
     if before <= 0 or after > 0:
         return float(interpolant.t)
     return float(brentq(lambda t: margin(t, interpolant(t)), interpolant.t_old, interpolant.t, xtol=1e-12))

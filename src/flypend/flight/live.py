@@ -1,29 +1,47 @@
-"""What a page needs to fly by itself: what it may fly, and what it offers: sliders, starts, and the first setting."""
+"""What a page needs to fly by itself: what it offers (sliders, starts, the first setting), and its machine code.
+
+What the code takes and gives is for web/src/live/simulation.js and its kinds.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+import base64
+import zlib
+from dataclasses import fields, replace
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
+from flypend.compile.llvm import runge_kutta, sampled
 from flypend.errors import InputError
-from flypend.flight.live_engine import engine_facts
-from flypend.flight.request import Flight
+from flypend.flight.criterion import PARTS, REDUCTIONS
+from flypend.flight.kernels.flown import STATUS
+from flypend.flight.kernels.launch import reasons
+from flypend.flight.kernels.pieces import pieces_problem
+from flypend.flight.kernels.sampled import JUDGED
+from flypend.flight.kernels.web import LANES, true_vehicle, web_module
+from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
+from flypend.flight.touch import reason_of, touchable
+from flypend.flight.verdict import HANGS, MISSED, POSE, goal
 from flypend.laws import BoundLaw
+from flypend.laws.closed_loop import lyapunov_function
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.pages.replay import in_base64
 from flypend.pages.sliders import Reach, defect_sliders, gain_sliders, plant_sliders, slider, sliders_of
 from flypend.pages.starts import directions, plain, starts
-from flypend.plants import AnyPlant, Sampled
+from flypend.plants import AnyPlant, Ideal, Noise, Sampled
+from flypend.plants.defects import NAMES
+from flypend.plants.knobs import LONGEST_DELAY, knob_values
 from flypend.plants.loop import Loop
 
 DURATIONS = (2.0, 30.0)  # s
 FURTHEST = 2.0  # m, that the reference moves
 RANDOM = 40  # starts that a page holds, each drawn from `State.random`
 MAPPED = 1200  # directions of the rod that a map has
+RAW = -15  # deflate without a header, which browsers call "deflate-raw"
+PERIOD = 0.002  # s between two rows of a flight through the ideal plant
 
 
 def live_data(flight: Flight | None) -> dict[str, Any]:
@@ -90,3 +108,58 @@ def _places(law: BoundLaw, plant: AnyPlant) -> list[dict[str, Any]]:
     words = {"x": "along e₁", "y": "along e₂", "z": "up"}
     reach = Reach(-FURTHEST, FURTHEST)
     return [slider(f"origin.{k}", "place", said, "m", 0.0, reach) for k, said in words.items()]
+
+
+# The machine code -----------------------------------------------------------------------------------------------------
+
+
+def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str, Any]:
+    """Return machine code that flies `loop` in pages, `lanes` flights at a time, and what it takes and gives.
+
+    The ideal plant is flown with the tolerances `exact`.
+    """
+    law, true = loop.symbolic, true_vehicle(loop)
+    criterion = goal(law.e3)
+    facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
+    told = reasons(loop)
+    if runge_kutta.TOO_MANY in told:
+        told[runge_kutta.TOO_MANY] = "more integration steps than a page takes"
+    deflated = zlib.compress(web_module(loop, criterion, exact, lanes), 9, wbits=RAW)
+    return {
+        "code": base64.b64encode(deflated).decode("ascii"),
+        **facts,
+        "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins),
+        "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],
+        "judge": max(1, round(SAMPLE_PERIOD / facts["period"])), "e3": law.e3, "rod": true.rod_length,
+        "masses": {"bob": true.bob_mass, "vehicle": true.mass},
+        "clear": true.mount != "gimbal",
+        "lyapunov": lyapunov_function(loop.vehicle, law, loop.parameters) is not None,
+        "words": {
+            "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSE, "hangs": HANGS,
+            "status": np.asarray(STATUS).tolist(), "reasons": [told.get(code, "") for code in range(len(STATUS))],
+            "touched": [[name, reason_of(loop.vehicle, i)] for i, name in enumerate(touchable(loop.vehicle))],
+        },
+    }  # fmt: skip
+
+
+def inflate(code: str) -> bytes:
+    """Return the module of WebAssembly that `engine_facts` has put into `code`."""
+    return zlib.decompress(base64.b64decode(code), wbits=RAW)
+
+
+def _sampled(loop: Loop) -> dict[str, Any]:
+    vehicle, plant = loop.vehicle, loop.sampled
+    return {
+        "kind": "sampled", "arguments": list(sampled.ARGUMENTS),
+        "plant": sum(pieces_problem(loop, goal(loop.law.e3)).inputs),
+        "knobs": knob_values(vehicle, plant), "noise": [entry.name for entry in fields(Noise)], "defects": list(NAMES),
+        "delay": max(LONGEST_DELAY, plant.delay), "period": 1 / plant.rate, "reductions": len(JUDGED),
+    }  # fmt: skip
+
+
+def _ideal(loop: Loop, exact: Tolerances) -> dict[str, Any]:
+    return {
+        "kind": "ideal", "arguments": list(runge_kutta.ARGUMENTS), "knobs": {"origin": [0.0, 0.0, 0.0]}, "noise": [],
+        "defects": [], "delay": 0.0, "period": PERIOD, "reductions": len(REDUCTIONS),
+        "exact": {"rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.max_steps},
+    }  # fmt: skip

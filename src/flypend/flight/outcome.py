@@ -6,9 +6,14 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from flypend import errors
+from flypend.model.state import MAX_STATE
 
 Status = Literal["completed", "diverged", "singular", "collided"]
 STATUSES: tuple[Status, ...] = get_args(Status)
+# Reasons that compiled code and the references in Python give alike.
+LEFT = f"the state left |s| < {MAX_STATE:g}"
+UNDEFINED = "the law is not defined at the start (0/0 in a rate); move the start or add a floor"
+NOT_ENOUGH = "steps were not enough"  # after their number
 
 
 @errors.named_arguments

@@ -35,6 +35,7 @@ LONGEST = 20_000.0  # s: two million samples, ten million control steps at 500 H
 # At this tolerance and looser, the method of order 5 is faster.
 LOOSE = 1e-6
 PRECISIONS = ("double", "float")
+MAX_STEPS = 1_000_000
 
 
 @errors.named_arguments
@@ -56,8 +57,8 @@ class Tolerances:
     Raises
     ------
     InputError
-        If a tolerance is not positive, rtol is not within 100 machine epsilons and 0.1, or method or precision is
-        unknown.
+        If a tolerance is not positive, rtol is not within 100 machine epsilons and 0.1, there are no steps, or method
+        or precision is unknown.
     """
 
     rtol: float = 1e-9
@@ -76,11 +77,18 @@ class Tolerances:
         if self.method is not None:
             errors.one_of("method", self.method, METHODS)
         errors.one_of("precision", self.precision, PRECISIONS)
+        if self.max_steps is not None:
+            errors.integer("max_steps", self.max_steps, 1)
 
     @property
     def absolute(self) -> float:
         """The absolute tolerance."""
         return self.rtol if self.atol is None else self.atol
+
+    @property
+    def steps(self) -> int:
+        """The largest number of steps."""
+        return MAX_STEPS if self.max_steps is None else self.max_steps
 
     def method_for(self, law: BoundLaw) -> str:
         """Return the requested Runge-Kutta method; by default the faster one, but DOP853 if `law` can be singular.
@@ -155,7 +163,11 @@ class Flight:
             raise InputError("judge_period", f"at most the duration, {self.duration:g} s", f"{self.judge_period:g}")
         if self.seed is not None:
             check_seed("seed", self.seed)
-        put("plant", _plant_for(self.law, plants.plant(self.plant)))
+        plant = plants.plant(self.plant)
+        if isinstance(plant, Ideal) and isinstance(self.law, Controller):  # which is sampled
+            lag = None if plant.lag else 0.0
+            plant = Sampled(limits=plant.limits, lag=lag, rate=self.law.rate, floor=plant.floor)
+        put("plant", plant)
         put("law", Loop(self.vehicle, self.law, self.plant).law)
         if self.seed is None:
             put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)
@@ -277,13 +289,6 @@ class Flight:
         if isinstance(plant, Ideal) and np.ndim(plant.rotors) == 2:
             plant = replace(plant, rotors=plant.rotors[i])
         return replace(self, law=law, gains={}, starts=self.starts[i], seed=(self.seed or 0) + i, plant=plant)
-
-
-def _plant_for(law: BoundLaw | Controller, plant: AnyPlant) -> AnyPlant:
-    """Return the plant for `law`: a Controller is sampled, so for it the ideal plant becomes a sampled one."""
-    if isinstance(plant, Ideal) and isinstance(law, Controller):
-        return Sampled(limits=plant.limits, lag=None if plant.lag else 0.0, rate=law.rate, floor=plant.floor)
-    return plant
 
 
 def bound_to(vehicle: Vehicle, law: AnyLaw) -> BoundLaw | Controller:

@@ -17,10 +17,9 @@ from flypend import signals
 from flypend.board.command import idle_command
 from flypend.board.computer import Estimating, FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import PER_TICK, normals
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, distinct
 from flypend.errors import InputError
-from flypend.flight.moments import distinct
-from flypend.flight.outcome import Outcome
+from flypend.flight.outcome import LEFT, Outcome
 from flypend.flight.request import Flight
 from flypend.flight.touch import watcher
 from flypend.geometry import Numbers
@@ -35,7 +34,6 @@ from flypend.plants.schedule import within_period
 from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, sensing, start_draws
 
 NOT_FINITE = "the law's wrench is not a finite number"
-LEFT = f"the state left |s| < {MAX_STATE:g}"
 
 
 @dataclass(frozen=True)
@@ -71,7 +69,8 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     measure, next_wind = _chance(vehicle, plant, packed, ticks)
     computer = flight_computer(loop, begin, estimate_at_start(plant, packed))
     states, forces = [engine.packed], [engine.rotors]
-    commands, segments = Commands(idle_command(loop, begin)), within_period(plant.delay, period)
+    segments = within_period(plant.delay, period)
+    commands = [idle_command(loop, begin)] * max(age for age, _ in segments)  # in effect before the first
     outcome = Outcome("completed", ticks * period)
     watch, there = watcher(true, floor=plant.floor), np.append(engine.packed, engine.rotors)
     if (touch := watch(there, there, period)) is not None:
@@ -84,10 +83,10 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
             if not np.isfinite(np.sum(command)):
                 outcome = Outcome("singular", k * period, NOT_FINITE)
                 break
-            commands.add(command)
+            commands.append(command)
             wind = next_wind(k)
             for age, while_ in segments:
-                world.advance(commands[age], while_, wind)
+                world.advance(commands[-1 - age], while_, wind)
             if not (np.all(np.isfinite(engine.packed)) and np.max(np.abs(engine.packed)) < MAX_STATE):
                 outcome = Outcome("diverged", k * period, LEFT)
                 break
@@ -99,22 +98,6 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
             states.append(engine.packed)
             forces.append(engine.rotors)
     return Samples(np.arange(len(states)) * period, np.array(states), np.array(forces), outcome)
-
-
-class Commands:
-    """The commands of a flight by age in ticks, 0 for the latest; `idle` before the first."""
-
-    def __init__(self, idle: Numbers) -> None:
-        self._idle = idle
-        self._given: list[Any] = []
-
-    def add(self, command: Numbers) -> None:
-        """Add the command of this tick."""
-        self._given.append(command)
-
-    def __getitem__(self, age: int) -> Numbers:
-        """Return the command `age` ticks before the latest."""
-        return self._given[-1 - age] if age < len(self._given) else self._idle
 
 
 def flight_computer(loop: Loop, rotors: Numbers, estimate: Numbers = None) -> FlightComputer:

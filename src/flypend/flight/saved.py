@@ -101,15 +101,21 @@ def check(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> t
     with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
         vehicle = Vehicle.from_dict(json_of("vehicle", about, dict))
     lengths = LENGTHS | {"rotor": len(vehicle.rotor_spins)}
-    signals = _signal_names(json_of("signals", about, list))
+    signals, taken = json_of("signals", about, list), {*FIELDS, *LENGTHS, "drift"}
+    if not all(isinstance(name, str) and name not in taken for name in signals) or len(set(signals)) != len(signals):
+        raise InputError("signals", "names, once each, that are not those of other variables", repr(signals)[:80])
     fields = {**FIELDS, **{name: Field(("t",), unit=UNITS.get(name, ""), finite=False) for name in signals}}
     fields |= {"drift": DRIFT} if "drift" in variables else {}
     arrays: dict[str, Any] = {"drift": np.zeros((0, len(DRIFT_OF))), **check_variables(fields, variables, lengths)}
-    _check_states(arrays)
+    if not len(t := arrays["t"]) or t[0] < 0 or np.any(np.diff(t) <= 0):
+        raise InputError("t", "increasing times from 0 on", f"{len(t)} that are not")
+    State(**{name: arrays[name] for name in SHAPES})  # raises for one that is none
+    errors.one_of("outcome", about["outcome"], STATUSES)
+    time = errors.number("outcome_time", about["outcome_time"], at_least=0, unit="s")
     run = dict(
         **{name: arrays[name] for name in (*ARRAYS, "drift")},
         signals={name: arrays[name] for name in signals},
-        outcome=_outcome(about),
+        outcome=Outcome(about["outcome"], time, about["outcome_reason"]),
         e3=about["e3"],
         vehicle=vehicle,
         law=about["law"],
@@ -128,24 +134,3 @@ def json_of(name: str, attributes: Mapping[str, Any], kind: type) -> Any:
     if not isinstance(found, kind):
         raise InputError(name, expected, repr(found)[:80])
     return found
-
-
-def _signal_names(names: list[Any]) -> list[str]:
-    taken = {*FIELDS, *LENGTHS, "drift"}
-    if not all(isinstance(name, str) and name not in taken for name in names) or len(set(names)) != len(names):
-        raise InputError("signals", "names, once each, that are not those of other variables", repr(names)[:80])
-    return names
-
-
-def _outcome(about: Mapping[str, Any]) -> Outcome:
-    errors.one_of("outcome", about["outcome"], STATUSES)
-    time = errors.number("outcome_time", about["outcome_time"], at_least=0, unit="s")
-    return Outcome(about["outcome"], time, about["outcome_reason"])
-
-
-def _check_states(arrays: Mapping[str, Any]) -> None:
-    """Raise InputError unless times increase from 0 or later, and every state is one that `State` accepts."""
-    t = arrays["t"]
-    if not len(t) or t[0] < 0 or np.any(np.diff(t) <= 0):
-        raise InputError("t", "increasing times from 0 on", f"{len(t)} that are not")
-    State(**{name: arrays[name] for name in SHAPES})

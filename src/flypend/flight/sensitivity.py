@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
+import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors, signals
+from flypend.compile.llvm import jit
+from flypend.compile.problem import Problem
+from flypend.compile.program import lower
 from flypend.errors import InputError
-from flypend.flight.kernels.tangent import fly_tangents
+from flypend.flight.kernels.flown import Flown, inputs_of
+from flypend.flight.kernels.ideal import Moments, call, compile_ideal
+from flypend.flight.kernels.stopping import heard
 from flypend.flight.labelled import dataset, describe, state_variables, variable
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import BoundLaw, Law
+from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.linearise import COORDINATES, tangent_basis
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE, E3Direction, project
+from flypend.model.state import SIZE, E3Direction, project, project_symbolic
 from flypend.plants import Ideal
+from flypend.plants.loop import Loop
 
 if TYPE_CHECKING:
     import xarray
@@ -123,14 +132,10 @@ def sensitivity(
     )
     bound, names = flight.loop.symbolic, tuple(gains)
     errors.only_known("gains", dict.fromkeys(names), bound.numbers)
-    runs, k = len(COORDINATES) + len(names), len(names)
-    directions, rates = np.zeros((runs, SIZE)), np.zeros((runs, k))
-    directions[: len(COORDINATES)] = tangent_basis(start).T
-    rates[len(COORDINATES) :] = np.eye(k)
-    flown = fly_tangents(flight, names, directions, rates)
-    failed = np.flatnonzero(flown.status != "completed")
-    derivatives = flown.final[:, SIZE:].T if not len(failed) else np.full((SIZE, runs), np.nan)
-    first = int(failed[0]) if len(failed) else 0
+    flown = _fly_tangents(flight, names)
+    first = int(np.argmax(flown.status != "completed"))  # of those that failed, or of all
+    completed = flown.status[first] == "completed"
+    derivatives = flown.final[:, SIZE:].T if completed else np.full((SIZE, len(flown)), np.nan)
     return Sensitivity(
         final=State.from_packed(project(flown.final[0, :SIZE])[0]),
         by_start=derivatives[:, : len(COORDINATES)],
@@ -141,3 +146,43 @@ def sensitivity(
         law=bound.name,
         gains={name: bound.numbers[name] for name in names},
     )
+
+
+def _fly_tangents(flight: Flight, gains: tuple[str, ...]) -> Flown:
+    """Fly the single start of `flight` along each coordinate and gain; final states (n, 48) hold state and derivative.
+
+    Each run propagates one direction, v of the state and q of the gains: ṡ = F(t, s, p), v̇ = F_s v + F_p q, by forward
+    derivatives of the same program.
+    """
+    coordinates, k = len(COORDINATES), len(gains)
+    loop, runs = replace(flight.loop, parameters=gains), coordinates + k
+    starts, parameters = np.zeros((runs, 2 * SIZE)), np.zeros((runs, 2 * k))
+    starts[:, :SIZE], starts[:coordinates, SIZE:] = flight.starts.packed(), tangent_basis(flight.starts).T
+    parameters[:, :k], parameters[coordinates:, k:] = inputs_of(loop, None, runs), np.eye(k)
+    out = Flown.of_size(runs, 2 * SIZE)
+    given = _kernel(loop), starts, parameters, flight.duration, flight.tolerances, Moments.of(), out
+    heard([lambda stop: call(*given, stop)])
+    return out
+
+
+@lru_cache(maxsize=16)
+def _kernel(closed: Loop) -> jit.Native:
+    """Return the kernel of the `closed` loop on (state, direction) (48,) and (parameters, their direction) (2 k,)."""
+    law, k = closed.symbolic, len(closed.parameters)
+    loop = symbolic_loop(closed.vehicle, law, closed.parameters)
+    both, parameters = ca.SX.sym("sv", 2 * SIZE), ca.SX.sym("pq", 2 * k)
+    along = ca.jtimes(loop.rates, loop.s, both[SIZE:])
+    if k:
+        along += ca.jtimes(loop.rates, loop.p, parameters[k:])
+    old, new = [loop.s, loop.p], [both[:SIZE], parameters[:k]]
+    inputs = [loop.t, both, parameters]
+    rates = ca.cse(ca.substitute([ca.densify(ca.vertcat(loop.rates, along))], old, new))
+    margin = None
+    if law.guard is not None:
+        signal = loop.signals[law.guard.signal] - law.guard.threshold
+        margin = lower(ca.Function("margin", inputs, ca.substitute([ca.densify(signal)], old, new)))
+    # The state is projected onto the manifold; for the derivative this would change less than a step's error.
+    onto = ca.vertcat(project_symbolic(both[:SIZE]), both[SIZE:])
+    projection = ca.Function("project", [both], [ca.densify(onto), ca.DM.zeros(3)])
+    problem = Problem(rates=lower(ca.Function("rates", inputs, rates)), project=lower(projection), margin=margin)
+    return compile_ideal(problem, "dop853")

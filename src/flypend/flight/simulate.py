@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants, signals
 from flypend.compile.numeric import as_numpy
 from flypend.compile.problem import LONGEST
-from flypend.flight.kernels import IdealKernel, SampledKernel, has_kernel, kernel_of
-from flypend.flight.kernels.single import Solution, sampled_samples
+from flypend.flight.kernels import SampledKernel, has_kernel, kernel_of
+from flypend.flight.kernels.launch import Solution, sampled_samples
 from flypend.flight.request import Flight, Tolerances, bound_to, some_times
-from flypend.flight.sampled import Samples, fly_stepwise
-from flypend.flight.signals import Signals
+from flypend.flight.sampled import fly_stepwise
 from flypend.flight.touch import watcher
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import Numbers
 from flypend.laws import AnyLaw, BoundLaw
-from flypend.laws.closed_loop import ClosedLoop, close_loop
+from flypend.laws.closed_loop import ClosedLoop, close_loop, lyapunov_function, signal_names
 from flypend.laws.references import sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, convert_packed, project, split
@@ -107,7 +107,7 @@ def fly(flight: Flight, engine: str = "kernel") -> Trajectory:
 def _ideal(flight: Flight, engine: str) -> Trajectory:
     """Fly the closed loop in continuous time; the wrench acts as commanded, or after the rotors' lag."""
     loop = close_loop(flight.vehicle, flight.loop.symbolic, lag=flight.loop.lag)
-    solution = _by_kernel(flight) if engine == "kernel" else _by_scipy(flight, loop)
+    solution = Solution(kernel_of(flight), flight) if engine == "kernel" else _by_scipy(flight, loop)
     wanted, end = flight.moments, solution.outcome.time
     t = wanted if solution.outcome.status == "completed" else np.append(wanted[wanted < end], end)
     packed = solution(t)
@@ -118,12 +118,6 @@ def _ideal(flight: Flight, engine: str) -> Trajectory:
         signals=dict(zip(loop.signal_names, values[:, 4:].T, strict=True)), drift=solution.drift,
         outcome=solution.outcome, interpolant=(lambda t: solution(t)[..., :SIZE]) if flight.loop.lag else solution,
     )  # fmt: skip
-
-
-def _by_kernel(flight: Flight) -> Solution:
-    kernel = kernel_of(flight)
-    assert isinstance(kernel, IdealKernel)
-    return Solution(kernel, flight)
 
 
 def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
@@ -141,8 +135,8 @@ def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
 
     exact, rates = flight.tolerances, as_numpy(loop.rates)
     return integrate(
-        rates, flight.packed[0], flight.duration, rtol=exact.rtol, atol=exact.absolute, margin=margin,
-        margin_reason=reason, touch=_touch(flight, loop),
+        rates, flight.packed[0], flight.duration, rtol=exact.rtol, atol=exact.absolute,
+        max_steps=exact.steps, margin=margin, margin_reason=reason, touch=_touch(flight, loop),
     )  # fmt: skip
 
 
@@ -174,7 +168,12 @@ def _touch(flight: Flight, loop: ClosedLoop) -> Callable[[Any], tuple[float, str
 
 def _fly_sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     """Fly a sampled flight; it is recorded at the control ticks nearest to the sample times."""
-    samples = _samples(flight, plant, engine)
+    if engine == "kernel" and has_kernel(flight):
+        kernel = kernel_of(flight)
+        assert isinstance(kernel, SampledKernel)
+        samples = sampled_samples(kernel, flight)
+    else:
+        samples = fly_stepwise(flight).at(flight.moments * plant.rate)
     law, vehicle = flight.law, flight.vehicle
     wrench = samples.rotors @ plant.true_vehicle(vehicle).mixing(law.e3).T
     packed = convert_packed(samples.packed, law.e3)
@@ -182,14 +181,6 @@ def _fly_sampled(flight: Flight, plant: Sampled, engine: str) -> Trajectory:
     return record_run(
         law, vehicle, samples.t, packed, wrench, rotor_forces=samples.rotors, signals=told, outcome=samples.outcome
     )
-
-
-def _samples(flight: Flight, plant: Sampled, engine: str) -> Samples:
-    if engine == "kernel" and has_kernel(flight):
-        kernel = kernel_of(flight)
-        assert isinstance(kernel, SampledKernel)
-        return sampled_samples(kernel, flight)
-    return fly_stepwise(flight).at(flight.moments * plant.rate)
 
 
 def record_run(law: AnyLaw, vehicle: Vehicle, t: Numbers, packed: Numbers, wrench: Numbers, **more: Any) -> Trajectory:
@@ -203,3 +194,55 @@ def record_run(law: AnyLaw, vehicle: Vehicle, t: Numbers, packed: Numbers, wrenc
         "x_ref": None if law.reference is None else sample(law.reference, t),
     }  # fmt: skip
     return Trajectory(t=t, vehicle=vehicle, **known | more)
+
+
+class Signals(Mapping[str, NDArray[np.float64]]):
+    """Signals (n,) of `law` along a sampled flight by name, computed on first access.
+
+    Building the closed loop takes longer than a flight. V is computed without the rest, whose rates take most of that
+    time: it is all that a page asks for.
+
+    Parameters
+    ----------
+    vehicle, law
+        The ideal closed loop, along which rates such as V_rate are.
+    t : (n,)
+        Times, s.
+    packed : (n, 24)
+        States in the law's frame.
+    """
+
+    def __init__(self, vehicle: Vehicle, law: BoundLaw, t: NDArray[np.float64], packed: NDArray[np.float64]) -> None:
+        self._vehicle, self._law, self._t, self._packed = vehicle, law, t, packed
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
+        return signal_names(self._vehicle, self._law)
+
+    @cached_property
+    def _lyapunov(self) -> NDArray[np.float64] | None:
+        function = lyapunov_function(self._vehicle, self._law)
+        return None if function is None else np.array(function(self._t[None], self._packed.T, []))[0]
+
+    @cached_property
+    def _values(self) -> dict[str, NDArray[np.float64]]:
+        loop = close_loop(self._vehicle, self._law)
+        values = np.array(loop.outputs(self._t[None], self._packed.T))[4:]
+        return dict(zip(loop.signal_names, values, strict=True))
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if name not in self._names:
+            raise KeyError(name)
+        if name == "V" and self._lyapunov is not None:
+            return self._lyapunov
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as a plain dict: CasADi symbols cannot be pickled."""
+        return dict, (dict(self),)

@@ -38,20 +38,23 @@ def task_starts(vehicle: Vehicle, runs: int, seed: int, directions: int = 12) ->
     Of leans there are `directions` of each of `LEANS`, in this order; in a cup, of those inside its cone,
     or if none is, of half its angle.
 
-    In a cup nothing swings up: the tasks are hover and lean, and random starts are level with the rod inside the cone.
-    On a hub, level and random starts do not touch. Of level starts there are `runs`, too.
+    In a cup nothing swings up: the tasks are hover and lean, and random starts are level and at rest, with the rod
+    within half the angle of the cone. On a hub, level and random starts do not touch. Of level starts there are `runs`,
+    too.
     """
     rng = np.random.default_rng(seed)
     most = vehicle.body.cup_angle if vehicle.mount == "cup" else np.pi
     leans = [lean for lean in LEANS if lean < most] or [most / 2]
     level = vehicle.l / 2 * _directions(directions, np.pi / 2)
+    hanging = np.concatenate([[-E3], _directions(directions, np.pi - ASKEW)])
     starts = {
         "hover": State(x=level, y=np.broadcast_to(E3, level.shape)),
         "lean": State(y=np.concatenate([_directions(directions, lean) for lean in leans])),
-        "hanging": _hanging(rng, directions),
+        "hanging": State(y=hanging, R=_headings(rng.uniform(0, 2 * np.pi, len(hanging)))),
     }
     if vehicle.mount == "cup":
-        return {"hover": starts["hover"], "lean": starts["lean"], "random": _in_cup(vehicle, rng, runs)}
+        within = State(y=_near_e3(rng, runs, vehicle.body.cup_angle / 2))
+        return {"hover": starts["hover"], "lean": starts["lean"], "random": within}
     return starts | {
         "level": free_starts(vehicle, _level, np.random.default_rng((seed, 1)), runs),
         "random": free_starts(vehicle, State.random, rng, runs),
@@ -89,19 +92,9 @@ def touching(vehicle: Vehicle, starts: State) -> Any:
     return np.any(margins(starts, hover, vehicle, "up") < 0, axis=-1)
 
 
-def _hanging(rng: np.random.Generator, directions: int) -> State:
-    y = np.concatenate([[-E3], _directions(directions, np.pi - ASKEW)])
-    return State(y=y, R=_headings(rng.uniform(0, 2 * np.pi, len(y))))
-
-
 def random_hanging(rng: np.random.Generator, runs: int) -> State:
     """Level vehicles at rest, at any heading, with the rod anywhere within `SWAY` of straight down."""
     return State(y=-_near_e3(rng, runs, SWAY), R=_headings(rng.uniform(0, 2 * np.pi, runs)))
-
-
-def _in_cup(vehicle: Vehicle, rng: np.random.Generator, runs: int) -> State:
-    """Level vehicles at rest with the rod anywhere within half the angle of the cone."""
-    return State(y=_near_e3(rng, runs, vehicle.body.cup_angle / 2))
 
 
 def _near_e3(rng: np.random.Generator, runs: int, most: float) -> Vector:

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from flypend.flight.request import Flight
 
-_STATE = tuple(SHAPES)
-
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -108,13 +106,13 @@ class Trajectory:
     @property
     def packed(self) -> Numbers:
         """The sampled states (n, 24) in the order of `State.packed`, exactly as integrated."""
-        rows = [getattr(self, name).reshape(len(self.t), -1) for name in _STATE]
+        rows = [getattr(self, name).reshape(len(self.t), -1) for name in SHAPES]
         return np.concatenate(rows, axis=1)
 
     @property
     def states(self) -> State:
         """The sampled states as one batch."""
-        return State(**{name: getattr(self, name) for name in _STATE})
+        return State(**{name: getattr(self, name) for name in SHAPES})
 
     @property
     def final(self) -> State:
@@ -167,7 +165,7 @@ class Trajectory:
         states, wrench = self.states.flipped(), self.wrench.flipped()
         return replace(
             self,
-            **{name: getattr(states, name) for name in _STATE},
+            **{name: getattr(states, name) for name in SHAPES},
             thrust=wrench.thrust,
             moment=wrench.moment,
             x_ref=self.x_ref @ FLIP,
@@ -301,7 +299,11 @@ class Trajectory:
             raise errors.InputError("ghost", "a Trajectory, or a sequence of them", repr(ghost))
         runs = [self, *others]
         verdicts = [verdict(run) for run in runs]
-        flies = _live(self) if live else None
+        flies = None
+        if live:
+            from flypend.flight.live import live_data
+
+            flies = live_data(self.flight)
         text = replay.page(runs, verdicts, title=title, layout=layout, speed=speed, live=flies, windows=windows)
         if path is not None:
             with whole_file(path, (".html",)) as partial:
@@ -313,12 +315,6 @@ class Trajectory:
         from flypend.pages import replay
 
         return replay.frame(self.to_html())
-
-
-def _live(run: Trajectory) -> dict[str, Any]:
-    from flypend.flight.live import live_data
-
-    return live_data(run.flight)
 
 
 @errors.named_arguments

@@ -41,7 +41,8 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
     part = part_of(run.vehicle, run.outcome.reason)
     distance = f"excursion {_round(judged.excursion)} m" if run.e3 == "up" else fall(run)
     if run.outcome.status != "completed":
-        words = f"{run.outcome.status} {_moment(run.outcome.time)}"
+        time = run.outcome.time
+        words = f"{run.outcome.status} {f'after {time:.3g} s' if time > 0 else 'at the start'}"
         if part is not None:
             words += f", {run.outcome.reason}"
     elif not judged.success:
@@ -59,10 +60,6 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
         "excess": worst_excess(run, criterion),
         "hold": criterion.hold,
     }
-
-
-def _moment(time: float) -> str:
-    return f"after {time:.3g} s" if time > 0 else "at the start"
 
 
 def fall(run: Run) -> str:

@@ -8,8 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from flypend import errors
-from flypend.flight.live import draw_starts, live_loop
-from flypend.flight.live_engine import engine_facts
+from flypend.flight.live import draw_starts, engine_facts, live_loop
 from flypend.flight.verdict import goal
 from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.setting import Setting, setting_of

@@ -10,8 +10,7 @@ from typing import Any
 
 from flypend.errors import InputError
 from flypend.flight.kernels.stopping import StoppedError
-from flypend.flight.live import live_loop, tunable
-from flypend.flight.live_engine import engine_facts
+from flypend.flight.live import engine_facts, live_loop, tunable
 from flypend.flight.verdict import verdict
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml

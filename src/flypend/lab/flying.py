@@ -11,12 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from flypend.compile.llvm import runge_kutta
 from flypend.flight.kernels import IdealKernel, SampledKernel
+from flypend.flight.kernels.launch import Solution, sampled_samples
 from flypend.flight.kernels.pieces import PiecesKernel
-from flypend.flight.kernels.single import REASONS, Solution, sampled_samples
-from flypend.flight.live_engine import PERIOD
-from flypend.flight.outcome import Outcome
+from flypend.flight.live import PERIOD
+from flypend.flight.outcome import NOT_ENOUGH, Outcome
 from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
 from flypend.flight.simulate import record_run
@@ -152,7 +151,7 @@ def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight)
     """Fly one part of a flight in the ideal plant."""
     solution = Solution(kernel, flight, gains)
     outcome, t = solution.outcome, flight.grid
-    if outcome.reason == REASONS[runge_kutta.TOO_MANY]:
+    if outcome.reason.endswith(NOT_ENOUGH):
         outcome = replace(outcome, reason=SPENT)
     if outcome.status != "completed":
         t = np.append(t[t < outcome.time], outcome.time)

@@ -5,7 +5,7 @@ import { spring } from "./spring.js";
 
 /** What flights through both kinds of plant share; sampled.js and ideal.js have the rest. */
 export class Simulation {
-  /** Of a `module` of WebAssembly, and `facts` about it, both as flypend.flight.live_engine writes them. */
+  /** Of a `module` of WebAssembly, and `facts` about it, both as flypend.flight.live writes them. */
   static async from(module, facts) {
     return new this(await Engine.from(module), facts);
   }

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 from flypend.compile.llvm.target import Target, native
-from flypend.compile.program import LIBRARY, LIBRARY_2, Operation, Program, drop_dead, interpret
+from flypend.compile.numeric import LINE
+from flypend.compile.program import LIBRARY, LIBRARY_2, ONE, Operation, Program, drop_dead, interpret
 from flypend.compile.routine import Cell, Routine, stretches
 
 ELEMENTARY = ("logarithm", "sine", "cosine", "inverse_root")  # functions of compile/loops/elementary.cpp
-LINE = 64  # bytes of a cache line
 # Allow fused multiply-add, reassociation, ignoring the sign of zero, and shared reciprocals: 10 % faster, with the same
 # result in every lane of a kernel. NaN and infinity keep their meaning.
 FLAGS = "contract reassoc nsz arcp "
@@ -233,7 +233,7 @@ def with_inverse_roots(program: Program) -> Program:
         if name == "sqrt":
             places.append(inverse_root(root))
         else:
-            one = operations[taken[0]] == Operation("constant", (), 1.0)
+            one = operations[taken[0]] == ONE
             places.append(root if one else put(Operation("mul", (taken[0], root))))
     outputs = tuple(tuple(places[number] for number in vector) for vector in program.outputs)
     return drop_dead(Program(program.name, program.inputs, tuple(operations), outputs))

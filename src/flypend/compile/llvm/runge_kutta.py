@@ -57,7 +57,7 @@ def _sizes(problem: Problem) -> dict[str, Any]:
     bounds = () if judging is None else judging.bounds
     return {
         "N": problem.size,
-        "PARAMETERS": problem.parameters,
+        "PARAMETERS": problem.rates.inputs[2],
         "WRENCH": len(wrenches[0]) if wrenches else 0,
         "GAUGES": len(bounds),
         "BOUNDS": bounds,

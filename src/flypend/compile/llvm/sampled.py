@@ -8,8 +8,9 @@ from flypend.compile.llvm.emit import define_routine
 from flypend.compile.llvm.loops import Constants, Definition, LoopModule, once, several
 from flypend.compile.llvm.random import PER_TICK, whole_blocks
 from flypend.compile.llvm.target import Target
-from flypend.compile.sampled_problem import GUSTS, EquationsProblem, MujocoProblem, SampledProblem
-from flypend.model.state import MAX_STATE
+from flypend.compile.problem import GUSTS, EquationsProblem, MujocoProblem, SampledProblem
+from flypend.compile.program import Program
+from flypend.model.state import MAX_STATE, SIZE
 
 INTEGERS = ("runs", "ticks", "sample_count", "row_count", "begun")
 ARGUMENTS = (
@@ -32,64 +33,54 @@ def kernel_module(problem: SampledProblem, width: int, target: Target | None = N
     """
     if isinstance(problem.world, MujocoProblem) and width != 1:
         raise ValueError("MuJoCo requires a kernel with one lane")
-    programs = _on_board(problem) | _sensing(problem) | _world(problem)
-    return LoopModule("sampled", (width, "double", target), programs, _constants(problem))
+    return LoopModule("sampled", (width, "double", target), _programs(problem), _constants(problem))
 
 
-def _on_board(problem: SampledProblem) -> dict[str, Definition]:
-    slide, start = problem.board.slide(), problem.begin
+def _programs(problem: SampledProblem) -> dict[str, Definition]:
+    slide, start, world = problem.board.slide(), problem.begin, problem.world
     parts = tuple(replace(program, name=f"board.{program.name}") for program in problem.board.programs)
     board = replace(problem.board, name="board", programs=parts)
-    programs: dict[str, Definition] = {
-        "start": once(replace(start, inputs=(*start.inputs, 0)[:2])),  # without sensors there is no estimate
-        "board": lambda lanes, _: define_routine(lanes, board, slide, inline=True, visible=True),
-        "judge": several(problem.judge),
+    in_one_place: dict[str, Program | None] = {
+        "start": replace(start, inputs=(*start.inputs, 0)[:2]),  # without sensors there is no estimate
+        "measure": problem.measure,
+        "gusts": problem.gusts,
     }
-    if problem.measure is not None:
-        programs["measure"] = once(problem.measure)
-    if problem.loop is not None:
-        programs["rate_loop"] = several(problem.loop)
-    if problem.resuming is not None:
-        programs["strike"] = once(problem.resuming.strike)
-    return programs
-
-
-def _sensing(problem: SampledProblem) -> dict[str, Definition]:
-    programs: dict[str, Definition] = {}
-    if (sensing := problem.sensing) is not None:
-        programs["sense_begin"], programs["sense_estimate"] = several(sensing.begin), several(sensing.estimate)
-        programs["sense"] = once(sensing.sense)
-    return programs
-
-
-def _world(problem: SampledProblem) -> dict[str, Definition]:
-    world = problem.world
-    programs: dict[str, Definition] = {}
+    in_several: dict[str, Program | None] = {"judge": problem.judge, "rate_loop": problem.loop}
     if isinstance(world, MujocoProblem):
-        given = {"seen": world.seen, "motors": world.motors, "surroundings": world.surroundings}
-        programs = {name: several(program) for name, program in given.items() if program is not None}
+        in_several |= {"seen": world.seen, "motors": world.motors, "surroundings": world.surroundings}
     else:
-        programs["world"] = once(world.step)
-    if problem.gusts is not None:
-        programs["gusts"] = once(problem.gusts)
-    if problem.touch is not None:
-        programs |= {"room": several(problem.touch.room), "touching": several(problem.touch.touching)}
-    return programs
+        in_one_place["world"] = world.step
+    if problem.resuming is not None:
+        in_one_place["strike"] = problem.resuming.strike
+    if (touch := problem.touch) is not None:
+        in_several |= {"room": touch.room, "touching": touch.touching}
+    if (sensing := problem.sensing) is not None:
+        in_one_place["sense"] = sensing.sense
+        in_several |= {"sense_begin": sensing.begin, "sense_estimate": sensing.estimate}
+    return {
+        "board": lambda lanes, _: define_routine(lanes, board, slide, inline=True, visible=True),
+        **{name: once(program) for name, program in in_one_place.items() if program is not None},
+        **{name: several(program) for name, program in in_several.items() if program is not None},
+    }
 
 
 def _constants(problem: SampledProblem) -> Constants:
-    slide, sensing, pieces, judged = problem.board.slide(), problem.sensing, problem.resuming, problem.reductions
+    begin, board, gusts, judged = problem.begin, problem.board, problem.gusts, problem.reductions
+    sensing, pieces, ages = problem.sensing, problem.resuming, [stretch.age for stretch in problem.flown]
+    memory, given, _, gains, _ = board.inputs
     _, timings, noise, wind, params = problem.inputs
-    stretches = pieces.stretches if pieces else len(problem.flown)
+    stretches = pieces.stretches if pieces else len(ages)
+    # The random numbers of a tick that are used: the first for the measurement, the others for the gusts.
+    measured = problem.measure.inputs[1] if problem.measure else sensing.sense.inputs[3] if sensing else 0
+    drawn = max(measured, GUSTS + gusts.inputs[1] if gusts else 0)
     numbers: Constants = {
-        "STATE": problem.size, "ROTORS": problem.rotors, "MEMORY": problem.memory, "SLIDE": slide or problem.memory,
-        "MEASURED": problem.measured, "COMMAND": problem.command, "GAINS": problem.gains, "NOISE": noise, "WIND": wind,
-        "PARAMS": params, "GUST": problem.gust, "VALUES": len(judged), "PERIOD": problem.period,
-        "STRETCHES": stretches, "TIMING": timings // stretches, "DEPTH": problem.depth,
-        "PIECES": int(pieces is not None),
-        "AGES": [stretch.age for stretch in problem.flown], "STEPS": [stretch.steps for stretch in problem.flown],
-        "RANDOM": int(problem.random), "FIRST_DRAW": problem.drawn.start, "END_DRAW": problem.drawn.stop,
-        "DRAWS": max(PER_TICK, whole_blocks(problem.drawn.stop)), "GUSTS": GUSTS,
+        "STATE": SIZE, "ROTORS": begin.inputs[0], "MEMORY": memory, "SLIDE": board.slide() or memory,
+        "MEASURED": given - 1, "COMMAND": len(begin.outputs[1]), "GAINS": gains, "NOISE": noise, "WIND": wind,
+        "PARAMS": params, "GUST": gusts.inputs[0] if gusts else 0, "VALUES": len(judged), "PERIOD": problem.period,
+        "STRETCHES": stretches, "TIMING": timings // stretches, "DEPTH": pieces.depth if pieces else 1 + max(ages),
+        "PIECES": int(pieces is not None), "AGES": ages, "STEPS": [stretch.steps for stretch in problem.flown],
+        "RANDOM": int(problem.random), "FIRST_DRAW": 0 if measured else GUSTS, "END_DRAW": drawn,
+        "DRAWS": max(PER_TICK, whole_blocks(drawn)), "GUSTS": GUSTS,
         "RATES": int(problem.loop is not None), "MEASURES": int(problem.measure is not None),
         "TOUCHES": int(problem.touch is not None), "MOST_STATE": float(MAX_STATE),
         "KINDS": [KINDS.index(kind) for kind in judged],

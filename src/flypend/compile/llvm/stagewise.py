@@ -7,7 +7,6 @@ them, forward or backward. The loop is `compile/loops/horizon.cpp`.
 from __future__ import annotations
 
 import ctypes
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -21,18 +20,17 @@ from numpy.typing import NDArray
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import Lanes, define_routine
 from flypend.compile.llvm.loops import Constants, LoopModule
+from flypend.compile.numeric import aligned
 from flypend.compile.routine import Routine, lower_calls
 
 WIDTH = 8
-ALIGNMENT = 64  # bytes
 
 
 def lanes(*shape: int, width: int = WIDTH) -> NDArray[np.float64]:
     """Return zeros of this `shape` with a last axis of `width` lanes, for a `Stagewise` of that width."""
-    length = math.prod(shape) * width
-    raw = np.zeros(length + ALIGNMENT // 8)
-    first = -raw.ctypes.data % ALIGNMENT // 8
-    return raw[first : first + length].reshape((*shape, width))
+    made: NDArray[np.float64] = aligned((*shape, width))
+    made[...] = 0.0
+    return made
 
 
 @dataclass(frozen=True)
@@ -83,7 +81,10 @@ def stagewise(
         Whether the lanes take stages of a single problem, and arrays are (stages, length). There must be at least
         `WIDTH` stages, and what is written must not be what another stage reads: the last may be computed twice.
     """
-    routine = one_routine(function)
+    if function.is_a("SXFunction"):  # a routine is what calls it
+        inputs = [ca.MX.sym(f"i{i}", function.nnz_in(i)) for i in range(function.n_in())]
+        function = ca.Function(f"{function.name()}_called", inputs, function.call(inputs))
+    routine = lower_calls(function)
     lengths = [*routine.inputs, *(len(cells) for cells in routine.outputs)]
     own: Constants = {
         "INPUTS": len(routine.inputs), "ABREAST": int(abreast), "LENGTHS": lengths, "TOTAL": sum(lengths)
@@ -143,14 +144,6 @@ def single(function: ca.Function) -> Callable[..., Any]:
         return tuple(array[:, 0].copy() for array in outputs)
 
     return call
-
-
-def one_routine(function: ca.Function) -> Routine:
-    """Return the routine of `function`; an SX function becomes one that calls it."""
-    if not function.is_a("SXFunction"):
-        return lower_calls(function)
-    inputs = [ca.MX.sym(f"i{i}", function.nnz_in(i)) for i in range(function.n_in())]
-    return lower_calls(ca.Function(f"{function.name()}_called", inputs, function.call(inputs)))
 
 
 def _define_stage(routine: Routine, lanes: Lanes, name: str) -> str:

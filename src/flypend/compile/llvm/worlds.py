@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flypend.compile.llvm.loops import Constants, Definition, LoopModule, apart
 from flypend.compile.llvm.random import whole_blocks
-from flypend.compile.worlds_problem import WorldsProblem
+from flypend.compile.problem import WorldsProblem
 from flypend.model.state import SIZE
 
 ARGUMENTS = (

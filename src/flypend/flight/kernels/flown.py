@@ -12,7 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend.compile.llvm.jit import Native
+from flypend.compile.numeric import aligned
 from flypend.errors import InputError
+from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.stopping import Word, heard
 from flypend.geometry import Numbers
 from flypend.plants.loop import Loop
@@ -24,6 +27,28 @@ LEAST_SHARE = 64
 
 # Status strings of `Outcome` for the codes of `flypend.compile.llvm.runge_kutta`.
 STATUS: Any = np.array(["completed", "diverged", "singular", "singular", "diverged", "diverged", "collided"])
+
+
+@dataclass(frozen=True, eq=False)
+class Kernel:
+    """A compiled closed loop.
+
+    Parameters
+    ----------
+    loop : Loop
+        Vehicle, law and plant; its `parameters` are the gains that may differ between runs.
+    criterion : Criterion
+        Success criterion.
+    function : Native
+        The compiled kernel.
+    key : str
+        Cache key: everything that determines the kernel, except processor and versions.
+    """
+
+    loop: Loop
+    criterion: Criterion
+    function: Native
+    key: str
 
 
 @dataclass(frozen=True)
@@ -43,8 +68,8 @@ class Flown:
     samples : (n, times, 24 or more), optional
         States at the sample times, followed by rotor forces in a sampled flight, and by the wrench that acts in the
         ideal plant with lag; NaN after the end.
-    steps : (n,), optional
-        Attempted steps, in the ideal plant.
+    steps : (n,)
+        Attempted steps, in the ideal plant; 0 in a sampled one.
     clearance, part : (n,), optional
         Least distance (m) of the rod to what it can touch, and the part that was touched, −1 for none; see
         `flypend.flight.touch`.
@@ -61,7 +86,7 @@ class Flown:
 
     @classmethod
     def of_size(
-        cls, runs: int, size: int, *, samples: tuple[int, int] | None, steps: bool, judged: int, touching: bool = False
+        cls, runs: int, size: int, *, samples: tuple[int, int] | None = None, judged: int = 0, touching: bool = False
     ) -> Flown:
         """Allocate results for `runs` runs with states of `size`.
 
@@ -72,8 +97,8 @@ class Flown:
             end=np.empty(runs),
             code=np.empty(runs, dtype=np.int64),
             reductions=np.empty((runs, judged)) if judged else None,
-            samples=None if samples is None else allocate((runs, *samples)),
-            steps=np.empty(runs, dtype=np.int64) if steps else None,
+            samples=None if samples is None else aligned((runs, *samples)),
+            steps=np.zeros(runs, dtype=np.int64),
             clearance=np.empty(runs) if touching else None,
             part=np.empty(runs, dtype=np.int64) if touching else None,
         )
@@ -91,17 +116,6 @@ class Flown:
     def status(self) -> Numbers:
         """Status string of each run (n,)."""
         return STATUS[self.code]
-
-
-LINE = 64  # bytes of a cache line
-
-
-def allocate(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
-    """Allocate an array at the start of a cache line, so that rows of eight doubles share no line."""
-    size = int(np.prod(shape)) * np.dtype(kind).itemsize
-    room = np.empty(size + LINE - 1, dtype=np.uint8)
-    first = -room.ctypes.data % LINE
-    return room[first : first + size].view(kind).reshape(shape)
 
 
 def in_pieces(
@@ -157,10 +171,6 @@ def inputs_of(loop: Loop, given: Numbers, runs: int) -> NDArray[np.float64]:
 
 
 def in_order(names: Sequence[str], given: Mapping[str, Any]) -> list[Any]:
-    """Return the arguments `given` by name in the order of a kernel's `names`: numbers, and addresses of arrays."""
-    return [value if isinstance(value := given[name], Real) else address(value) for name in names]
-
-
-def address(array: Any) -> int | None:
-    """Return the address of a contiguous `array`'s data, to pass to a kernel; None for None."""
-    return None if array is None else array.ctypes.data
+    """Return the arguments `given` by name in the order of a kernel's `names`: numbers, addresses of arrays, None."""
+    values = [given[name] for name in names]
+    return [value if value is None or isinstance(value, Real) else value.ctypes.data for value in values]

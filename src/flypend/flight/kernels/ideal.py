@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -18,13 +17,13 @@ from flypend.compile.llvm.runge_kutta import ARGUMENTS, INTEGERS, REALS, kernel_
 from flypend.compile.llvm.target import Target
 from flypend.compile.methods import NAMES as METHODS
 from flypend.compile.methods import method as method_named
+from flypend.compile.numeric import distinct
 from flypend.compile.problem import Judging, Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, gauge, gauge_bounds
-from flypend.flight.kernels.flown import Flown, Progress, from_queue, in_order, inputs_of
-from flypend.flight.kernels.stopping import Word, heard
-from flypend.flight.moments import distinct
+from flypend.flight.kernels.flown import Flown, Kernel, Progress, from_queue, in_order, inputs_of
+from flypend.flight.kernels.stopping import Word
 from flypend.flight.request import Tolerances
 from flypend.flight.touch import touch_of
 from flypend.geometry import Numbers, Vector, hat
@@ -40,7 +39,9 @@ from flypend.plants.loop import Loop
 SHORT, LONG = 64, 128
 OPERATIONS_OF_LONG = 800
 BYTES = {"double": 8, "float": 4}
-MAX_STEPS = 1_000_000
+ARGUMENT_KINDS = [
+    ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p for name in ARGUMENTS
+]
 # Share by which single precision may move the place of a time in a table: two roundings, and a margin.
 ROUNDING = 5e-7
 
@@ -69,40 +70,8 @@ class Moments(NamedTuple):
         return cls(np.append(kept, np.inf), np.append(judged, np.inf), bins, rate)
 
 
-class Limits(NamedTuple):
-    """What bounds a run, by the names of a kernel's arguments: its end (s), tolerances per step, number of steps."""
-
-    until: float
-    rtol: float
-    atol: float
-    max_steps: int
-
-    @classmethod
-    def of(cls, duration: float, exact: Tolerances) -> Limits:
-        """Return the limits of a run of `duration` seconds that is as `exact`."""
-        return cls(duration, exact.rtol, exact.absolute, exact.max_steps or MAX_STEPS)
-
-
-@dataclass(frozen=True, eq=False)
-class IdealKernel:
-    """A compiled closed loop.
-
-    Parameters
-    ----------
-    loop : Loop
-        Vehicle, law, and the gains that may differ between runs.
-    criterion : Criterion
-        Success criterion.
-    function : callable
-        The compiled kernel.
-    key : str
-        Cache key: everything that determines the kernel, except processor and versions.
-    """
-
-    loop: Loop
-    criterion: Criterion
-    function: jit.Native
-    key: str
+class IdealKernel(Kernel):
+    """A compiled flight through the ideal plant."""
 
     def fly(
         self,
@@ -120,8 +89,6 @@ class IdealKernel:
 
         Parameters
         ----------
-        starts, duration
-            Packed states; flight time, s.
         exact : Tolerances
             Tolerances per step and the number of steps; method and precision are those of the kernel.
         parameters : (n, k), optional
@@ -137,56 +104,26 @@ class IdealKernel:
         """
         starts = np.ascontiguousarray(starts, dtype=float)
         values = inputs_of(self.loop, parameters, len(starts))
-        moments, limits = Moments.of(judge_at, keep_at), Limits.of(duration, exact)
-
-        size = starts.shape[1]
+        moments, size = Moments.of(judge_at, keep_at), starts.shape[1]
         samples = None if keep_at is None else (len(moments.kept) - 1, size)
         out = Flown.of_size(
-            len(starts), size, samples=samples, steps=True, judged=0 if judge_at is None else len(REDUCTIONS),
+            len(starts), size, samples=samples, judged=0 if judge_at is None else len(REDUCTIONS),
             touching=self.loop.touches,
         )  # fmt: skip
 
         def fly(queue: Any, stop: Word) -> None:
-            call(self.function, starts, values, limits, moments, out, stop, queue=queue)
+            call(self.function, starts, values, duration, exact, moments, out, stop, queue=queue)
 
         from_queue(fly, len(starts), workers, progress)
         return out
-
-
-def lane_count(problem: Problem, precision: str) -> int:
-    """Return the number of SIMD lanes with which the kernel of `problem` is fastest."""
-    size = LONG if sum(problem.rates.counts().values()) > OPERATIONS_OF_LONG else SHORT
-    return size // BYTES[precision]
-
-
-def integrate(
-    function: jit.Native,
-    start: NDArray[np.float64],
-    values: NDArray[np.float64],
-    limits: Limits,
-    times: ArrayLike,
-    knots: NDArray[np.float64] | None = None,
-    *,
-    touching: bool = False,
-) -> Flown:
-    """Fly one run by a compiled ideal kernel from `start` (24,) or (28,), keeping the states at increasing `times`.
-
-    `values` (1, k) are the parameter values. `knots` receives the number of accepted steps
-    and four numbers for each: its time, and the drift (3,) before projection. `touching` says whether there is
-    anything to touch.
-    """
-    moments = Moments.of(keep_at=times)
-    size = len(start)
-    out = Flown.of_size(1, size, samples=(len(moments.kept) - 1, size), steps=True, judged=0, touching=touching)
-    heard([lambda stop: call(function, start[None], values, limits, moments, out, stop, knots=knots)])
-    return out
 
 
 def call(
     function: jit.Native,
     starts: NDArray[np.float64],
     values: NDArray[np.float64],
-    limits: Limits,
+    duration: float,
+    exact: Tolerances,
     moments: Moments,
     out: Flown,
     stop: Word,
@@ -194,12 +131,16 @@ def call(
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
-    `out` is filled. Once `stop` is set, the call returns at its next step. `more` may be `knots`, to fill as in
-    `integrate`, and `queue` (1,), the index of the next run, through which calls in several threads share the runs.
+    The runs last `duration`, s, with the tolerances per step and the number of steps of `exact`.
+
+    `out` is filled. Once `stop` is set, the call returns at its next step. `more` may be `knots` of a single run, to
+    receive the number of accepted steps and four numbers for each: its time, and the drift (3,) before projection; and
+    `queue` (1,), the index of the next run, through which calls in several threads share the runs.
     """
     given = {
         "starts": starts, "parameters": values, "queue": np.zeros(1, dtype=np.int64), "runs": len(starts),
-        "begin": 0.0, **limits._asdict(), "times": moments.kept, "time_count": len(moments.kept) - 1,
+        "begin": 0.0, "until": duration, "rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.steps,
+        "times": moments.kept, "time_count": len(moments.kept) - 1,
         "judge_times": moments.judged, "bins": moments.bins, "bin_count": len(moments.bins), "bin_rate": moments.rate,
         "samples": out.samples, "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
         "steps": out.steps, "knots": None, "clearance": out.clearance, "part": out.part, "stop": stop, **more,
@@ -211,32 +152,19 @@ def call(
 def ideal_kernel(
     loop: Loop, criterion: Criterion | None = None, *, method: str = "dop853", precision: str = "double"
 ) -> IdealKernel:
-    """Return the kernel of a `loop` in continuous time, compiled or from the cache.
+    """Return the kernel of a `loop` in continuous time for `criterion` (default: inverted), compiled or from the cache.
 
-    Of the loop's plant only count lag and floor.
+    Of the loop's plant only count lag and floor. Its parameters are inputs, all other gains are constants of the code.
+    `method` is "dop853", of order 8 for tight tolerances, or "dp5", of order 5 for 1e-6 and looser. All arithmetic has
+    the `precision` "double" or "float".
 
-    Parameters
-    ----------
-    loop : Loop
-        Vehicle and law. The loop's parameters are inputs; all other gains are constants of the machine code.
-    criterion : Criterion, optional
-        Success criterion (default: inverted).
-    method : "dop853" or "dp5"
-        Order 8 for tight tolerances; order 5 for 1e-6 and looser.
-    precision : "double" or "float"
-        Precision of all arithmetic.
-
-    Raises
-    ------
-    InputError
-        If the method, precision or a gain is unknown, or the law has operations that cannot be compiled.
+    Raises InputError if the method, precision or a gain is unknown, or the law has operations that cannot be compiled.
     """
     criterion = criterion or Criterion()
     one_of("precision", precision, BYTES)
     problem = ideal_problem(loop, criterion)
     one_of("method", method, METHODS)
-    key = key_of(problem, method, precision)
-    return IdealKernel(loop, criterion, compile_ideal(key, problem, method, precision), key)
+    return IdealKernel(loop, criterion, compile_ideal(problem, method, precision), key_of(problem, method, precision))
 
 
 def key_of(problem: Problem, method: str, precision: str) -> str:
@@ -244,24 +172,18 @@ def key_of(problem: Problem, method: str, precision: str) -> str:
     return f"ideal {method} {precision} {problem!r}"
 
 
-def compile_ideal(key: str, problem: Problem, method: str, precision: str = "double") -> jit.Native:
-    """Return the kernel of `problem` by `method` in `precision`, compiled or from the cache under `key`."""
-    kinds = [
-        ctypes.c_int64 if name in INTEGERS else ctypes.c_double if name in REALS else ctypes.c_void_p
-        for name in ARGUMENTS
-    ]
-    return jit.build(*write_ideal(key, problem, lane_count(problem, precision), method, precision), "kernel", kinds)
+def compile_ideal(problem: Problem, method: str, precision: str = "double") -> jit.Native:
+    """Return the kernel of `problem` by `method` in `precision`, compiled or from the cache, as wide as is fastest."""
+    size = LONG if sum(problem.rates.counts().values()) > OPERATIONS_OF_LONG else SHORT
+    return jit.build(*write_ideal(problem, size // BYTES[precision], method, precision), "kernel", ARGUMENT_KINDS)
 
 
 def write_ideal(
-    key: str, problem: Problem, width: int, method: str, precision: str, target: Target | None = None
+    problem: Problem, width: int, method: str, precision: str, target: Target | None = None
 ) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` runs at a time, and what writes its module."""
-
-    def module() -> LoopModule:
-        return kernel_module(problem, method_named(method), width, precision, target)
-
-    return f"{key} {width} lanes, states below {MAX_STATE}", module
+    key = f"{key_of(problem, method, precision)} {width} lanes, states below {MAX_STATE}"
+    return key, lambda: kernel_module(problem, method_named(method), width, precision, target)
 
 
 def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:

@@ -23,14 +23,14 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import aligned, as_numpy
+from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
-from flypend.compile.sampled_problem import Resuming, SampledProblem
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import STATUS, allocate, in_order, inputs_of
+from flypend.flight.kernels.flown import in_order, inputs_of
+from flypend.flight.kernels.launch import outcome_of
 from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, write_sampled
-from flypend.flight.kernels.single import sampled_outcome
 from flypend.flight.outcome import Outcome
 from flypend.model import State
 from flypend.model.state import SIZE, convert_packed
@@ -87,7 +87,10 @@ class PiecesKernel:
     room: int
 
     def begin(self, start: State, *, seed: int = 0, gains: Mapping[str, float] | None = None) -> PiecewiseFlight:
-        """Begin a flight from `start`, in the law's frame, with the random numbers of `seed`."""
+        """Begin a flight from `start`, in the law's frame, with the random numbers of `seed`.
+
+        The rotors give their least force. `gains` are values of gains that are inputs, default those of the law.
+        """
         return PiecewiseFlight(self, start, seed, gains or {})
 
 
@@ -106,19 +109,7 @@ def _compile(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
 
 
 class PiecewiseFlight:
-    """A flight that is flown piece by piece.
-
-    Parameters
-    ----------
-    kernel : PiecesKernel
-        The machine code.
-    start : State
-        Where it begins, in the law's frame; the rotors give their least force.
-    seed : int
-        Seed of its random numbers.
-    gains : dict
-        Values of the gains that are inputs; default those of the law.
-    """
+    """A flight that is flown piece by piece, by machine code; see `PiecesKernel.begin`."""
 
     def __init__(self, kernel: PiecesKernel, start: State, seed: int, gains: Mapping[str, float]) -> None:
         loop = kernel.loop
@@ -130,7 +121,7 @@ class PiecewiseFlight:
             "starts": begin[None], "parameters": inputs_of(loop, None, 1).copy(), "seeds": np.array([seed]), "runs": 1,
             "reductions": np.zeros((1, len(JUDGED))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
             "status": np.zeros(1, dtype=np.int64), "clearance": np.zeros(1), "part": np.zeros(1, dtype=np.int64),
-            "stop": np.zeros(1, dtype=np.int64), "context": allocate((kernel.room // 8,)),
+            "stop": np.zeros(1, dtype=np.int64), "context": aligned((kernel.room // 8,)),
             "mujoco": None,
         }  # fmt: skip
         self._plant: NDArray[np.float64] = self._turn(np.concatenate(list(self._knobs.values())))
@@ -174,13 +165,7 @@ class PiecewiseFlight:
     @property
     def outcome(self) -> Outcome:
         """How and when the flight has ended; completed at its last tick while it goes on."""
-        code, end, part = (self._given[name][0] for name in ("status", "end", "part"))
-        return sampled_outcome(int(code), float(end), int(part), self._loop.vehicle)
-
-    @property
-    def status(self) -> str:
-        """How the flight has ended; "completed" while it goes on."""
-        return str(STATUS[self._given["status"][0]])
+        return outcome_of(self._loop, *(self._given[name] for name in ("status", "end", "part")))
 
     @property
     def flying(self) -> bool:

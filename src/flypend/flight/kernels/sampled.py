@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -20,14 +20,14 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.loops import LoopModule
 from flypend.compile.llvm.sampled import ARGUMENTS, INTEGERS, kernel_module
 from flypend.compile.llvm.target import Target
+from flypend.compile.numeric import distinct
+from flypend.compile.problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
-from flypend.compile.sampled_problem import EquationsProblem, MujocoProblem, SampledProblem, Sensing, Stretch
 from flypend.errors import array
 from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observe
-from flypend.flight.kernels.flown import Flown, Progress, in_order, in_pieces, inputs_of
+from flypend.flight.kernels.flown import Flown, Kernel, Progress, in_order, in_pieces, inputs_of
 from flypend.flight.kernels.stopping import Word
-from flypend.flight.moments import distinct
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.flight.touch import touch_of
 from flypend.geometry import Numbers
@@ -74,26 +74,8 @@ class Ticks(NamedTuple):
         return cls(ticks, judged, np.append(np.searchsorted(keep, ticks), len(keep)))
 
 
-@dataclass(frozen=True, eq=False)
-class SampledKernel:
-    """A compiled sampled flight. The plant's lag, noise, defects and wind are inputs: see `structure`.
-
-    Parameters
-    ----------
-    loop : Loop
-        Vehicle, law and plant; its `parameters` are the gains that may differ between runs.
-    criterion : Criterion
-        Success criterion.
-    function : callable
-        The compiled kernel.
-    key : str
-        Cache key: everything that determines the kernel, except processor and versions.
-    """
-
-    loop: Loop
-    criterion: Criterion
-    function: Any
-    key: str
+class SampledKernel(Kernel):
+    """A compiled sampled flight. The plant's lag, noise, defects and wind are inputs: see `structure`."""
 
     def through(self, plant: Plant) -> SampledKernel:
         """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
@@ -114,12 +96,14 @@ class SampledKernel:
         workers: int | None = None,
         progress: Progress = lambda *_: None,
     ) -> Flown:
-        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds; with rotor forces (n, 24 + rotors), N.
+        """Fly all `starts` (n, 24), in the law's frame, for `duration` seconds.
+
+        Where rotor forces are not the least, they follow the states (n, 24 + rotors), N.
+
+        `parameters`, `workers` and `progress`, here with `(done, runs)`, are those of `IdealKernel.fly`.
 
         Parameters
         ----------
-        starts, duration
-            Packed states, with rotor forces if these are not the least; flight time, s.
         judge_at : (j,) of int
             Increasing control ticks at which the criterion is evaluated.
         keep_at : (t,) of int, optional
@@ -127,12 +111,6 @@ class SampledKernel:
             the criterion.
         first_seed : int
             Seed of the first run, increasing by 1 per run.
-        parameters : (n, k), optional
-            Values of the varying gains; default those of the law.
-        workers : int, optional
-            Threads; default one per core.
-        progress : callable
-            Called with `(done, runs)`.
         """
         loop, vehicle = self.loop, self.loop.vehicle
         runs, n = len(starts), len(vehicle.rotor_spins)
@@ -145,12 +123,26 @@ class SampledKernel:
         count = number_of_ticks(duration, loop.sampled)
         values = inputs_of(loop, parameters, runs)
         samples = None if keep_at is None else (int(moments.rows[-1]), SIZE + n)
-        memory = Flown.of_size(runs, SIZE, samples=samples, steps=False, judged=len(JUDGED), touching=self.loop.touches)
+        memory = Flown.of_size(runs, SIZE, samples=samples, judged=len(JUDGED), touching=self.loop.touches)
         numbers = plant_numbers(loop)
         piece = PIECE if loop.sampled.engine == "equations" else PIECE_MUJOCO
 
         def fly(part: slice, out: Flown, stop: Word) -> None:
-            self._call(packed[part], values[part], numbers, seeds[part], count, moments, out, stop)
+            if out.samples is not None:
+                out.samples[...] = np.nan
+            given = {
+                "starts": packed[part], "parameters": values[part], "plant": numbers, "seeds": seeds[part],
+                "runs": len(out), "ticks": count, "sample_ticks": moments.ticks, "sample_count": len(moments.ticks),
+                "judged": moments.judged, "rows": moments.rows, "row_count": int(moments.rows[-1]),
+                "samples": out.samples, "reductions": out.reductions, "final": out.final, "end": out.end,
+                "status": out.code, "clearance": out.clearance, "part": out.part, "stop": stop,
+                "context": None, "begun": 0, "impulses": None, "mujoco": None,
+            }  # fmt: skip
+            if loop.sampled.engine == "equations":
+                self.function(*in_order(ARGUMENTS, given))
+            else:
+                with MuJoCoWorld.lent(loop) as world:
+                    self.function(*in_order(ARGUMENTS, given | {"mujoco": world.addresses(packed[part])}))
 
         flown = in_pieces(fly, memory, piece, workers, progress)
         if loop.law.e3 == "down":
@@ -158,34 +150,6 @@ class SampledKernel:
             if flown.samples is not None:
                 flown.samples[..., :SIZE] *= FLIP_PACKED
         return flown
-
-    def _call(
-        self,
-        starts: Numbers,
-        values: Numbers,
-        numbers: Numbers,
-        seeds: Numbers,
-        count: int,
-        ticks: Ticks,
-        out: Flown,
-        stop: Word,
-    ) -> None:
-        """Fly `starts` (n, 24 + rotors), e₃ up, for `count` ticks into `out`; `seeds` (n,), `values` (n, k)."""
-        if out.samples is not None:
-            out.samples[...] = np.nan
-        given = {
-            "starts": starts, "parameters": values, "plant": numbers, "seeds": seeds, "runs": len(starts),
-            "ticks": count, "sample_ticks": ticks.ticks, "sample_count": len(ticks.ticks), "judged": ticks.judged,
-            "rows": ticks.rows, "row_count": int(ticks.rows[-1]), "samples": out.samples,
-            "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,
-            "clearance": out.clearance, "part": out.part, "stop": stop,
-            "context": None, "begun": 0, "impulses": None, "mujoco": None,
-        }  # fmt: skip
-        if self.loop.sampled.engine == "equations":
-            self.function(*in_order(ARGUMENTS, given))
-        else:
-            with MuJoCoWorld.lent(self.loop) as world:
-                self.function(*in_order(ARGUMENTS, given | {"mujoco": world.addresses(starts)}))
 
 
 def structure(plant: Plant) -> Plant:
@@ -196,14 +160,11 @@ def structure(plant: Plant) -> Plant:
     """
     knocks = plant.wind is not None and plant.wind.knocks
     gusty = Wind(gust_on_vehicle=float(is_random(plant.replace(noise=None))), knock_on_vehicle=float(knocks))
+    mismatch = {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
     return plant.replace(
-        lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=_without_lag(plant),
+        lag=None, noise=plant.noise and Noise(), wind=plant.wind and gusty, seed=0, mismatch=mismatch,
         spin_up=1.0 if plant.spin_up == 1.0 else 2.0, sensors=plant.sensors and blank(plant.sensors),
     )  # fmt: skip
-
-
-def _without_lag(plant: Plant) -> dict[str, float]:
-    return {name: value for name, value in plant.mismatch.items() if name != "rotor_lag"}
 
 
 def _serves_any_machine(loop: Loop) -> bool:
@@ -250,18 +211,8 @@ def _segments(plant: Plant) -> list[tuple[int, float, int]]:
 def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
     """Return the kernel of `loop` for `criterion`, compiled or from the cache.
 
-    Parameters
-    ----------
-    loop : Loop
-        Vehicle, bound law, sampled plant, and the gains that may differ between runs; the flight computer's lead,
-        latency and observer may not.
-    criterion : Criterion
-        Success criterion.
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown, or the law has operations that cannot be compiled.
+    Lead, latency and observer of the flight computer may not be among the gains that differ between runs. Raises
+    InputError if a gain is unknown, or the law has operations that cannot be compiled.
     """
     compiled, common = _compiled(loop)
     if loop.sampled.engine == "mujoco":

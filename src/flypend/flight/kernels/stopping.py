@@ -76,7 +76,17 @@ def heard(calls: Sequence[Callable[[Word], None]], tell: Callable[[], None] = la
         _check(word)
         return
     with interruptible() as word:
-        _wait(calls, word, tell)
+        with ThreadPoolExecutor(len(calls)) as pool:
+            tasks = [pool.submit(call, word) for call in calls]
+            try:
+                while wait(tasks, timeout=signals.PERIOD).not_done:
+                    signals.poll()
+                    tell()
+            except BaseException:
+                word[0] = 1
+                raise
+        for task in tasks:
+            task.result()
         _check(word)
 
 
@@ -84,17 +94,3 @@ def _check(word: Word) -> None:
     signals.poll()
     if word[0]:
         raise StoppedError("stopped")
-
-
-def _wait(calls: Sequence[Callable[[Word], None]], word: Word, tell: Callable[[], None]) -> None:
-    with ThreadPoolExecutor(len(calls)) as pool:
-        tasks = [pool.submit(call, word) for call in calls]
-        try:
-            while wait(tasks, timeout=signals.PERIOD).not_done:
-                signals.poll()
-                tell()
-        except BaseException:
-            word[0] = 1
-            raise
-    for task in tasks:
-        task.result()

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import casadi as ca
 import numpy as np
 
@@ -12,7 +9,7 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import Lanes, define
 from flypend.compile.llvm.loops import LoopModule
 from flypend.compile.llvm.target import wasm32
-from flypend.compile.program import Program, lower
+from flypend.compile.program import lower
 from flypend.compile.wasm import module
 from flypend.flight.criterion import Criterion, observe
 from flypend.flight.kernels import ideal, sampled
@@ -30,32 +27,10 @@ from flypend.plants.loop import Loop
 LANES = 2  # of a kernel: two flights take the time of one, and the module is no larger (benchmarks/web.py)
 
 
-@dataclass(frozen=True)
-class WebModule:
-    """A module of WebAssembly to be: `kernel` writes the functions `names`; `programs` are functions beside them."""
-
-    key: str
-    kernel: Callable[[], LoopModule]
-    names: tuple[str, ...]
-    programs: tuple[Program, ...]
-
-    def code(self) -> bytes:
-        """Return its bytes, compiled or from the cache. No expression of CasADi is touched any more."""
-
-        def whole() -> LoopModule:
-            made = self.kernel()
-            for program in self.programs:
-                define(Lanes(made, 1, target=wasm32()), program, visible=True)
-            return made
-
-        exported = [*self.names, *(program.name for program in self.programs)]
-        return module(jit.build_object(f"{self.key} {self.programs!r}", whole, wasm32()), exported)
-
-
-def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int = LANES) -> WebModule:
+def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int = LANES) -> bytes:
     """Return the module that flies `loop`, `lanes` flights at a time, and judges by `criterion`.
 
-    Its functions are "kernel" and `shown_values`, and
+    It is compiled or from the cache. Its functions are "kernel" and `shown_values`, and
 
     - for a sampled plant, which flies in pieces: "context_size", which stores the bytes of the kernel's argument
       "context", and "turned", from `flypend.plants.knobs` to the argument "plant". The kernel has the arguments
@@ -69,20 +44,23 @@ def web_module(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int =
         If the law has operations that cannot be compiled, or another engine simulates the plant.
     """
     if isinstance(loop.plant, Ideal):
-        return _ideal(loop, criterion, exact, lanes)
-    written = sampled.write_sampled(pieces_problem(loop, criterion), lanes, wasm32())
-    return WebModule(
-        *written, ("kernel", "context_size"), (lower(turn_knobs(loop.sampled)), lower(shown_values(loop, criterion)))
-    )
+        problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
+        key, kernel = ideal.write_ideal(problem, lanes, *chosen, wasm32())
+        centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
+        names, beside = ["kernel"], [own(loop), row(loop), struck(centred)]
+    else:
+        key, kernel = sampled.write_sampled(pieces_problem(loop, criterion), lanes, wasm32())
+        names, beside = ["kernel", "context_size"], [turn_knobs(loop.sampled)]
+    programs = tuple(lower(function) for function in (*beside, shown_values(loop, criterion)))
 
+    def whole() -> LoopModule:
+        made = kernel()
+        for program in programs:
+            define(Lanes(made, 1, target=wasm32()), program, visible=True)
+        return made
 
-def _ideal(loop: Loop, criterion: Criterion, exact: Tolerances, lanes: int) -> WebModule:
-    """Return the module that flies `loop` through the ideal plant in a page."""
-    problem, chosen = ideal.ideal_problem(loop, criterion), (exact.method_for(loop.symbolic), exact.precision)
-    written = ideal.write_ideal(ideal.key_of(problem, *chosen), problem, lanes, *chosen, wasm32())
-    centred = loop.vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))  # as the ideal plant has it
-    beside = (own(loop), row(loop), struck(centred), shown_values(loop, criterion))
-    return WebModule(*written, ("kernel",), tuple(lower(function) for function in beside))
+    exported = [*names, *(program.name for program in programs)]
+    return module(jit.build_object(f"{key} {programs!r}", whole, wasm32()), exported)
 
 
 def own(loop: Loop) -> ca.Function:

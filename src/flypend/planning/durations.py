@@ -18,24 +18,11 @@ from types import MappingProxyType
 
 import numpy as np
 
+from flypend.planning.multistart import FINAL, FINAL_IN_TIME, SOFT_LAST, Found, Guess, Job, Watch, agreeing
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.result import Plan
-from flypend.planning.search import (
-    FINAL,
-    FINAL_IN_TIME,
-    SOFT_LAST,
-    Found,
-    Guess,
-    Job,
-    Watch,
-    agreeing,
-    finished,
-    guesses_of,
-    improved,
-    together,
-)
+from flypend.planning.search import finished, guesses_of, improved, plan_of, together
 from flypend.planning.solver import Settings
-from flypend.planning.verdict import plans_of
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
 # Tried before a time that is asked for, which may be longer than is good, and the last of them before `HORIZONS` where
@@ -140,7 +127,7 @@ class Search:
 
     def _judged(self, asked: Request, horizon: float, found: Found) -> Tried:
         self._spent += found.spent
-        return Tried(asked, horizon, found, plans_of([asked], [found], horizon)[0])
+        return Tried(asked, horizon, found, plan_of(asked, found, horizon))
 
 
 def ladder(duration: float | None, asked: Request) -> list[float]:

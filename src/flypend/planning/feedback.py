@@ -78,9 +78,9 @@ def _hover(plan: Plan) -> Array:
 def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: float) -> Array:
     """Return the gains (stages, n, 18 + n) of the regulator in SI units, by one recursion from zero cost to go."""
     n, count = commands.shape[1], len(commands)
-    compiled, w = programs(n, Structure(), lanes=False), Scratch(programs(n, Structure(), lanes=False), count, 1)
-    own, forces = one_lane(states / units.states(n)), one_lane(commands / units.force)
-    timing = one_lane(np.array(step_timing(vehicle.rotor_lag / units.time, h)))
+    compiled = programs(n, Structure(), lanes=False)
+    w, own, forces = Scratch(compiled, count, 1), one_lane(states / units.states(n)), one_lane(commands / units.force)
+    timing = one_lane(units.timing(vehicle, h))
     compiled.linearised(count, own, own[1:], forces, timing, one_lane(units.numbers(vehicle)), w.d, w.slopes)
     w.cost[:] = _cost(n)[:, None]
     compiled.backward(count, w.to_go[1:], w.slopes, w.d, w.cost, one_lane(np.zeros(2)), w.to_go, w.gains)
@@ -90,7 +90,7 @@ def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: fl
         [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
         axis=2,
     )
-    return whole * units.force / of_deviation(units, n)
+    return whole * units.force / units.deviations(n)
 
 
 @lru_cache(maxsize=1)
@@ -111,14 +111,6 @@ def _cost(n: int) -> Array:
     layout = programs(n, Structure(), lanes=False).layout
     cost = layout.cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
     return np.array(ca.DM(ca.evalf(cost))).ravel()
-
-
-def of_deviation(units: Units, n: int) -> Array:
-    """Return the units of the entries of a `deviation` (18 + n,) of a vehicle with `units` and n rotors."""
-    rate = 1 / units.time
-    return np.concatenate(
-        [[units.length] * 3, [units.length * rate] * 3, [1.0] * 3, [rate] * 3, [1.0] * 3, [rate] * 3, [units.force] * n]
-    )
 
 
 def deviation(rotors: int) -> ca.Function:

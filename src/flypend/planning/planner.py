@@ -22,10 +22,10 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.durations import HORIZONS, Search, in_time, ladder, shortest
 from flypend.planning.inequalities import EFFORT
+from flypend.planning.multistart import NOT_KEPT, Found, Job, agreeing
 from flypend.planning.problem import Request, end_of, request
 from flypend.planning.result import Plan, PlanEnsemble
-from flypend.planning.search import NOT_KEPT, Found, Job, agreeing, finished, improved, one_by_one, prepare, together
-from flypend.planning.verdict import plans_of
+from flypend.planning.search import finished, improved, one_by_one, plan_of, prepare, together
 from flypend.signals.waiting import result_of, threads
 
 LONGEST = 60.0  # √(l/g)
@@ -127,16 +127,16 @@ def plan_within(
 ) -> Plan:
     """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock.
 
-    `rounds` as in `search.Race`. With constraints there are two races, the second of which does not know of them. If no
-    plan keeps them, one that keeps `otherwise` will do, if that is given: of each race the one that breaks least.
+    `rounds` as in `Race`. With constraints there are two races, the second of which does not know of them. If no plan
+    keeps them, one that keeps `otherwise` will do, if that is given: of each race the one that breaks least.
     """
     found = [together(asked, horizon, math.inf, iterations, rounds)]
     if asked.kept.loose:
         found.append(together(asked.unconstrained(), horizon, math.inf, iterations, rounds, kept=asked))
-    plans = plans_of([asked] * len(found), found, horizon)
+    plans = [plan_of(asked, each, horizon) for each in found]
     if not any(plans) and otherwise is not None:
         found = [replace(each, lacks="" if each.lacks == NOT_KEPT else each.lacks) for each in found]
-        plans = plans_of([replace(asked, kept=otherwise)] * len(found), found, horizon)
+        plans = [plan_of(replace(asked, kept=otherwise), each, horizon) for each in found]
     return min(zip(plans, found, strict=True), key=lambda each: (not each[0], each[1].cost))[0]
 
 
@@ -245,7 +245,7 @@ def _plan_each(asked: Sequence[Request], horizons: Sequence[float], guesses: int
 def _solve(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | None = None) -> list[Best]:
     """Return what comes of each of `jobs`; see `one_by_one`."""
     found = one_by_one(jobs, horizon, before) if jobs else []
-    plans = plans_of([job.asked for job in jobs], found, horizon)
+    plans = [plan_of(job.asked, each, horizon) for job, each in zip(jobs, found, strict=True)]
     return [Best(not plan, each.cost, plan, each) for plan, each in zip(plans, found, strict=True)]
 
 
@@ -274,7 +274,7 @@ def coarsened(plan: Plan, many: int) -> tuple[Plan, Request]:
     commands = commands.reshape(stages, many, n).mean(axis=1)
     horizon, job = stages * many * plan.stage / asked.units.time, Job(asked, plan.guess)
     found = finished(job, horizon, improved(job, horizon, (states, commands), math.inf), math.inf)
-    coarse = plans_of([asked], [found], horizon)[0]
+    coarse = plan_of(asked, found, horizon)
     if not coarse:
         raise InputError("plan", f"one that can be flown in {stages} stages", coarse.reason)
     return coarse, asked

@@ -32,13 +32,13 @@ from flypend.planning.dynamics import Units
 from flypend.planning.fallback import CHARGES, LONGEST, Fallback, Schedule
 from flypend.planning.inequalities import WALLS
 from flypend.planning.model_error import ModelError
+from flypend.planning.multistart import SOFT_LAST, Found, work
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import STAGES_PER_UNIT, Request, request
 from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, in_weights, upright
 from flypend.planning.result import Plan
-from flypend.planning.search import SOFT_LAST, Found, stages_of, work
+from flypend.planning.search import plan_of, stages_of
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
-from flypend.planning.verdict import plans_of
 from flypend.plants.loop import Loop
 
 Array = NDArray[np.float64]
@@ -48,7 +48,7 @@ COMPUTING = 0.001  # s
 # Horizon, √(l/g), and iterations of the first attempt, and of those after failures. After 22 iterations all of 160
 # random starts have a plan, which goes 4 % farther than the best on average, and 2 % with eight guesses to the end.
 ATTEMPTS = ((12.5, 22), (12.5, 40), (20.0, 60), (32.0, 60), (12.5, 40))
-ROUNDS = {4: 4, 8: 2}  # see `search.Race`
+ROUNDS = {4: 4, 8: 2}  # see `multistart.Race`
 # An iteration of a guess takes so many times what is charged for a real-time iteration, which has to be there in time.
 OF_GUESS = 0.7
 LATE = 2.0  # after a plan that was late, the next is given so many times as long
@@ -209,23 +209,10 @@ class Coming(NamedTuple):
 
 
 class Pilot(Boards):
-    """The flight computer of `nmpc`, for one flight.
+    """The flight computer of `nmpc`, for one flight: `receding` is what it has in common with others; see `Boards`.
 
-    Parameters
-    ----------
-    receding : Receding
-        What it has in common with others.
-    loop, rotors : Loop, (n,)
-        As for `Boards`.
-
-    Attributes
-    ----------
-    changes : list of (float, str, str)
-        When it changed hands, s, to which mode, and why.
-    plans : list of Plan
-        The plans that were flown.
-    spent : list of float
-        Processor time of each real-time iteration, s.
+    `changes` say when it changed hands, s, to which mode, and why; `plans` are those that were flown, and `spent` is
+    the processor time of each real-time iteration, s.
     """
 
     def __init__(self, receding: Receding, loop: Loop, rotors: ArrayLike) -> None:
@@ -334,6 +321,7 @@ class Pilot(Boards):
         if alone > horizon * self._units.time:
             return Coming(None, None, "a plan would take longer than its flight", t, t, None, self._error.scales)
         here, begun, measured = np.append(state, rotors), time.process_time(), self._common.computing is None
+        self._fallback.scales = self._error.scales
         if self._failures or alone > LONGEST * self._units.time:
             lead = self._fallback.until(t, here, alone)
         else:
@@ -380,7 +368,7 @@ class Pilot(Boards):
         if begun is None:
             found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
         else:
-            (found,) = plans_of([asked], [begun], stages_of(horizon)[1] * len(begun.commands))
+            found = plan_of(asked, begun, stages_of(horizon)[1] * len(begun.commands))
         its = asked.structure
         if its.soft:
             asked.numbers[-2] = SOFT_LAST if its.mounted or its.gates else WALL

@@ -38,21 +38,8 @@ class Boards(ABC):
     One predicts for the plan, the other flies the law, which so takes over as if it had always flown. Both find their
     delay if the law's does, and use the same estimator.
 
-    Parameters
-    ----------
-    loop : Loop
-        The closed loop that is flown.
-    law : Law
-        What flies where no plan does.
-    latency : float
-        Delay that the plan's board begins with, s.
-    rotors : (n,)
-        Initial rotor forces, N.
-
-    Attributes
-    ----------
-    off : (3,)
-        What is added to the position, m, that the law is shown.
+    The closed `loop` is flown from initial `rotors` (n,), N, by `law` where no plan does; the plan's board begins with
+    a delay of `latency` (s). To the position that the law is shown, `off` (3,), m, is added.
     """
 
     def __init__(self, loop: Loop, law: Law, latency: float, rotors: ArrayLike) -> None:
@@ -161,21 +148,9 @@ def rotors_only(name: str) -> Callable[[float, State], Wrench]:
 
 
 class Tracker(Boards):
-    """The flight computer of a tracked plan.
+    """The flight computer of a tracked plan for `vehicle`, with its gains in `feedback`; the rest as for `Boards`.
 
-    Parameters
-    ----------
-    feedback : Feedback
-        The plan with its gains.
-    vehicle : Vehicle
-        The vehicle of the plan.
-    law, loop, rotors : Law, Loop, (n,)
-        As for `Boards`; the law takes over once the flight is too far from the plan.
-
-    Attributes
-    ----------
-    following : bool
-        Whether the plan is still followed.
+    The law takes over once the flight is too far from the plan, which it is not `following` then.
     """
 
     def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: ArrayLike) -> None:
@@ -245,18 +220,9 @@ def plan_and_track(
 
 
 class Autopilot:
-    """The flight computer that plans with `asked` (vehicle, start) at its first command, and then tracks.
+    """The flight computer that plans with `asked`, (vehicle, start, rotors=) → plan, at its first command, and tracks.
 
-    Parameters
-    ----------
-    asked : callable
-        (vehicle, start, rotors=) → plan.
-    law : Law
-        What flies without a plan.
-    loop : Loop
-        The closed loop that is flown.
-    rotors : (n,)
-        Initial rotor forces, N.
+    Without a plan `law` flies the closed `loop`, from initial `rotors` (n,), N.
     """
 
     def __init__(self, asked: Any, law: Law, loop: Loop, rotors: Any) -> None:

@@ -167,14 +167,8 @@ def _edges(states: State, vehicle: Vehicle) -> tuple[Array, Array, Array]:
 def passing(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
     """Return g (ROWS, 1), of which all are ≥ 0 in the funnel of a window; in rod lengths, as distances near its edge.
 
-    Parameters
-    ----------
-    state : SX
-        State (24 + n, 1); of the rod both ends and the worst point between count, of the body those farthest out.
-    about : SX
-        The state about which derivatives are taken: there the place on the rod is found that counts.
-    numbers : SX
-        Of the window, (NUMBERS, 1); see `through`.
+    Of the rod in a `state` (24 + n, 1) both ends and the worst point between count, which is found in the state `about`
+    which derivatives are taken, of the body the points farthest out. For the `numbers` (NUMBERS, 1) see `through`.
     """
     half, slope, depth = numbers[12:14], numbers[14:16], numbers[16]
 
@@ -214,21 +208,11 @@ def _worst(first: ca.SX, run: ca.SX, axis: int, slope: ca.SX) -> ca.SX:
 
 
 def through(window: Window, vehicle: Vehicle, route: Sequence[State], target: Array, clearance: float) -> Array:
-    """Return the numbers (NUMBERS,) of a `window` for `passing`, in own units about the `target`.
+    """Return the numbers (NUMBERS,) of a `window` for `passing`, in own units about the `target` (3,), m.
 
-    Parameters
-    ----------
-    window, vehicle
-        The window, and the vehicle, of which the funnel keeps `clearance` (m) from the frame.
-    route : sequence of State
-        Start, waypoints and end, which are to be in the funnel, start and end on different sides of the wall.
-    target : (3,)
-        The target, m.
-
-    Raises
-    ------
-    InputError
-        If the opening is too small for the rod alone, start and end are on one side, or something is in the wall.
+    The funnel keeps `vehicle` a `clearance` (m) from the frame. The `route`, which is start, waypoints and end, is to
+    be in it, start and end on different sides of the wall. Raises InputError if the opening is too small for the rod
+    alone, start and end are on one side, or something is in the wall.
     """
     radius, height, margin = body_of(vehicle)
     near = margin + clearance + INSET * vehicle.l

@@ -17,7 +17,6 @@ from time import process_time
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend import signals
 from flypend.board.computer import SteppedBoard
@@ -25,6 +24,7 @@ from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
 from flypend.model.state import SIZE
+from flypend.planning.dynamics import Array
 from flypend.planning.feedback import AS_MODELLED, stepping
 from flypend.planning.multistart import Found, work
 from flypend.planning.problem import Request
@@ -34,7 +34,6 @@ from flypend.plants.loop import Loop
 DIRECTIONS, STEPS, SUBSTEPS = 8, 12, 4
 BEYOND = 0.5  # of the wait, so much longer the rod has to keep away: a plan must be able to begin
 
-Array = NDArray[np.float64]
 # How many guesses go on after how many iterations; iterations until the first sketch, and of legs, each of which takes
 # a stage on hehn2011; and what they are in iterations of single guesses. More before the first sketch come too late,
 # fewer choose worse.

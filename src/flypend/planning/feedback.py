@@ -13,13 +13,12 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import ATTITUDE, MOTION, ROD, SWING, Units, between, plane, turn_by
+from flypend.planning.dynamics import ATTITUDE, MOTION, ROD, SWING, Array, Units, between, plane, turn_by
 from flypend.planning.inequalities import Structure
 from flypend.planning.result import Plan
 from flypend.planning.solver import Scratch, one_lane, programs
@@ -34,7 +33,6 @@ MOST_HEADING = 0.3  # rad, to which feedback in hover takes the heading
 TINY = 1e-12  # keeps a heading finite that does not exist, or is half a turn away
 HOVER_STAGES = 300  # after so many the cost to go of hover has settled: 25 √(l/g)
 
-Array = NDArray[np.float64]
 STILL, AS_MODELLED = np.zeros(6), np.ones(2)
 
 
@@ -85,11 +83,8 @@ def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: fl
     w.cost[:] = _cost(n)[:, None]
     compiled.backward(count, w.to_go[1:], w.slopes, w.d, w.cost, one_lane(np.zeros(2)), w.to_go, w.gains)
     K = -w.gains[:, : n * (MOTION + n), 0].reshape(count, n, MOTION + n)
-    b = np.array(_planes().map(count)(states[:-1, 18:21].T)).reshape(3, count, 2).transpose(1, 0, 2)
-    whole = np.concatenate(
-        [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
-        axis=2,
-    )
+    b = np.array(_planes().map(count)(states[:-1, 18:21].T)).reshape(3, count, 2).transpose(1, 2, 0)
+    whole = np.concatenate([K[:, :, :12], K[:, :, ROD] @ b, K[:, :, SWING] @ b, K[:, :, MOTION:]], axis=2)
     return whole * units.force / units.deviations(n)
 
 

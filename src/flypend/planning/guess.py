@@ -21,18 +21,15 @@ from functools import lru_cache
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.geometry import E3, cross, dot, norm, unit
 from flypend.model import State
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Stage, cayley, turn_by
+from flypend.planning.dynamics import Array, Stage, cayley, turn_by
 from flypend.planning.problem import Request
 from flypend.planning.riccati import solve
 from flypend.plants.lag import hold
-
-Array = NDArray[np.float64]
 
 # Per style: largest acceleration of the pivot, k, bandwidth of its position, E*, k_c, the height y₃ above which the rod
 # is balanced, its squared speed up to which it is, and whether it is caught below that height instead of pumped. They

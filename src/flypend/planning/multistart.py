@@ -9,11 +9,12 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import signals
 from flypend.compile.llvm.stagewise import lanes
 from flypend.planning.constraints import TOLERANCE
+from flypend.planning.dynamics import Array
 from flypend.planning.problem import Request
 from flypend.planning.solver import (
     DEFAULT,
@@ -30,7 +31,6 @@ from flypend.planning.solver import (
 # After so many iterations so many go on, those of least cost.
 ROUNDS: Mapping[int, int] = MappingProxyType({6: 4, 12: 2})
 
-Array = NDArray[np.float64]
 Guess = tuple[Array, Array]  # states (stages + 1, 24 + n) and commands (stages, n), own units
 
 NEVER = np.full(1, np.inf)

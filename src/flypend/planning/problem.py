@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
@@ -17,11 +17,9 @@ from flypend.laws.references import check_reference, sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, angle, begins_touching, own_function
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.inequalities import END, Structure
 from flypend.planning.window import along, through
-
-Array = NDArray[np.float64]
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too

@@ -12,11 +12,10 @@ import math
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.feedback import AS_MODELLED, Feedback, Follower, regulator
 from flypend.planning.inequalities import SHARED
 from flypend.planning.problem import Request
@@ -42,8 +41,6 @@ SETTLED = (0.15, 0.15, 0.2, 0.5, 0.1, 0.2)
 FALLING, AWAY = 0.35, 2.0
 MOVED = [*range(6), *range(12, 18)]  # of a deviation: pivot, rod and their rates
 ATTITUDE, ROD, AXIS = slice(6, 15), slice(18, 21), [8, 11, 14]  # of a packed state
-
-Array = NDArray[np.float64]
 
 
 def in_weights(forces: Array, acceleration: Array, vehicle: Vehicle) -> Array:
@@ -251,8 +248,5 @@ class PlanInFlight:
 
 def _with_tail(feedback: Feedback) -> Feedback:
     """Return `feedback` with TAIL stages of hover, in arrays of its own."""
-
-    def longer(values: Array) -> Array:
-        return np.concatenate([values, np.repeat(values[-1:], TAIL, axis=0)])
-
-    return Feedback(feedback.stage, longer(feedback.states), longer(feedback.commands), longer(feedback.gains))
+    parts = feedback.states, feedback.commands, feedback.gains
+    return Feedback(feedback.stage, *(np.concatenate([part, np.repeat(part[-1:], TAIL, axis=0)]) for part in parts))

@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple, Unpack
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.compile.llvm.stagewise import WIDTH
@@ -25,10 +25,11 @@ from flypend.errors import InputError
 from flypend.geometry import E3, norm
 from flypend.laws import Computer, Controller, Law
 from flypend.laws.references import Reference, hover
+from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.fallback import CHARGES, LONGEST, Fallback, Schedule
 from flypend.planning.inequalities import WALLS
 from flypend.planning.model_error import ModelError
@@ -41,7 +42,6 @@ from flypend.planning.search import plan_of, stages_of
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
 from flypend.plants.loop import Loop
 
-Array = NDArray[np.float64]
 Level = tuple[Array, Array]  # rod and thrust axis in hover
 
 COMPUTING = 0.001  # s
@@ -175,11 +175,6 @@ class Receding:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
         there = _moving(self.reference)(0.0)[:3]
         request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
-
-    @property
-    def limited(self) -> bool:
-        """Whether there are constraints other than the clearance."""
-        return bool(self.constraints.given.keys() - {"clearance"})
 
     @property
     def mount(self) -> Constraints:
@@ -326,7 +321,7 @@ class Pilot(Boards):
             lead = self._fallback.until(t, here, alone)
         else:
             first, *legs = (each * charge for charge in CHARGES)
-            legs = [] if self._common.limited else legs
+            legs = [] if self._common.constraints.given.keys() - {"clearance"} else legs
             try:
                 lead = self._fallback.sketch(t, here, horizon, first, legs, alone, self._ask, measured=measured)
             except InputError:
@@ -382,6 +377,4 @@ def _moving(reference: Reference) -> Any:
     """Return the function from time (s) to position, velocity and acceleration (9,) of `reference`."""
     t = ca.SX.sym("t")
     position = ca.densify(reference(t))
-    velocity = ca.jacobian(position, t)
-    moved = ca.vertcat(position, velocity, ca.jacobian(velocity, t))
-    return as_numpy(ca.Function("where", [t], [ca.densify(moved)]))
+    return as_numpy(ca.Function("where", [t], [ca.densify(ca.vertcat(position, *derivatives(position, t, 2)))]))

@@ -26,12 +26,11 @@ from flypend.laws.references import Reference, hover, sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SHAPES, SIZE, split
 from flypend.planning import files
+from flypend.planning.dynamics import Array
 from flypend.planning.files import Status
 from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, hold, step_timing
-
-Array = NDArray[np.float64]
 
 INDEPENDENT_STEP = 1e-3  # s
 NEAR_HOVER = 0.5  # m/s, 1/s and 1, which no plan to hover is off at its end
@@ -55,7 +54,7 @@ class Plan:
     windows : tuple of Window
         What it flies through.
     t : (n,)
-        Times, s: `dense` in each stage.
+        Times, s: as many in each stage, at equal distances.
     packed : (n, 24)
         States at these times, in the order of `State.packed`.
     rotor_forces : (n, k)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -15,7 +15,7 @@ from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
 from flypend.model.state import SIZE
 from flypend.planning.constraints import begins_touching, broken
-from flypend.planning.dynamics import Stage
+from flypend.planning.dynamics import Array, Stage
 from flypend.planning.files import Status
 from flypend.planning.guess import arcs, lean_guess, leans, pumping, styles
 from flypend.planning.multistart import (
@@ -25,7 +25,6 @@ from flypend.planning.multistart import (
     ROUNDS,
     SOFT_GROWTH,
     SOFT_LAST,
-    Array,
     FinalWatch,
     Found,
     Guess,
@@ -222,6 +221,38 @@ def _dense(asked: Request, found: Found, horizon: float, samples: int) -> Any:
 @lru_cache(maxsize=4)
 def _step(rotors: int) -> Stagewise:
     return stagewise(Stage(rotors).step(), shared=(2, 3), abreast=True)
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What came of an attempt at a request with a `horizon` (√(l/g))."""
+
+    asked: Request
+    horizon: float
+    found: Found
+    plan: Plan
+
+    @classmethod
+    def of(cls, asked: Request, found: Found, horizon: float) -> Tried:
+        """Return what was `found` for what is `asked`, with its plan."""
+        return cls(asked, horizon, found, plan_of(asked, found, horizon))
+
+    def __bool__(self) -> bool:
+        """Whether the plan can be flown."""
+        return bool(self.plan)
+
+    def rank(self) -> tuple[bool, float]:
+        """Return whether it failed, and its cost: the less, the better."""
+        return not self, self.found.cost
+
+    @property
+    def job(self) -> Job:
+        """Its guess."""
+        return Job(self.asked, self.found.style)
+
+    def ended(self, final: Tried) -> Tried:
+        """Return what solving this to the end came to, `final`, if that converged or is better; else this."""
+        return final if final and (not final.found.unfinished or final.found.cost < self.found.cost) else self
 
 
 def plan_of(asked: Request, found: Found, horizon: float) -> Plan:

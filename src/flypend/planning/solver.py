@@ -19,12 +19,11 @@ from numpy.typing import ArrayLike, NDArray
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.compile.llvm.stagewise import lanes as some_lanes
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import ATTITUDE, LEAST_ROOM, POSITION, ROD, Stage
+from flypend.planning.dynamics import ATTITUDE, LEAST_ROOM, POSITION, ROD, Array, Stage
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, Barrier, Structure
 from flypend.planning.problem import Request
 from flypend.planning.riccati import Layout, backward, forward
 
-Lanes = NDArray[np.float64]
 # Of multipliers of the end: their step, as a share of weight and error; the error, in tolerances, beyond which the
 # weight grows first; and the offset below which it falls.
 ASCENT, FAR_OFF, PUSHED = 2.0, 1.5, 2.0
@@ -125,10 +124,10 @@ class Problem:
     """What is to be planned, one problem per lane, in each machine's own units."""
 
     stages: int
-    timing: Lanes  # of a stage, (4, lanes); see `plants.lag.step_timing`
-    vehicle: Lanes  # numbers of the machines, (k, lanes); see `dynamics.Units.numbers`
-    numbers: Lanes  # of the inequalities, (j, lanes); see `inequalities.Structure.numbers`
-    places: Lanes | None = None  # (stages + 1, 3, lanes): where the pivot is to be, with a path; else the origin
+    timing: Array  # of a stage, (4, lanes); see `plants.lag.step_timing`
+    vehicle: Array  # numbers of the machines, (k, lanes); see `dynamics.Units.numbers`
+    numbers: Array  # of the inequalities, (j, lanes); see `inequalities.Structure.numbers`
+    places: Array | None = None  # (stages + 1, 3, lanes): where the pivot is to be, with a path; else the origin
 
     @classmethod
     def of(cls, asked: Sequence[Request], stages: int, h: float) -> Problem:
@@ -141,20 +140,20 @@ class Problem:
         return cls(stages, timing, vehicle, numbers, places)
 
     @property
-    def arrays(self) -> tuple[Lanes, ...]:
+    def arrays(self) -> tuple[Array, ...]:
         """What differs between lanes."""
         own = (self.timing, self.vehicle, self.numbers)
         return own if self.places is None else (*own, self.places)
 
 
-def side_by_side(arrays: Sequence[ArrayLike]) -> Lanes:
+def side_by_side(arrays: Sequence[ArrayLike]) -> Array:
     """Return copies of `arrays` of one shape, each on a lane of its own."""
     found = some_lanes(*np.shape(arrays[0]), width=len(arrays))
     np.stack(arrays, axis=-1, out=found)
     return found
 
 
-def one_lane(values: ArrayLike) -> Lanes:
+def one_lane(values: ArrayLike) -> Array:
     """Return a copy of `values` with a last axis of one lane."""
     return side_by_side([values])
 
@@ -186,14 +185,14 @@ class Measures(NamedTuple):
     therefore `Settings.plain` at most: 0 where the conditions of first order hold.
     """
 
-    cost: Lanes
-    value: Lanes
-    lack: Lanes
-    gap: Lanes
-    end: Lanes
-    barrier: Lanes
+    cost: Array
+    value: Array
+    lack: Array
+    gap: Array
+    end: Array
+    barrier: Array
     stuck: NDArray[np.bool_]
-    change: Lanes
+    change: Array
 
 
 class Solver:
@@ -214,7 +213,7 @@ class Solver:
     """
 
     def __init__(
-        self, programs: Programs, problem: Problem, states: Lanes, commands: Lanes, settings: Settings = DEFAULT,
+        self, programs: Programs, problem: Problem, states: Array, commands: Array, settings: Settings = DEFAULT,
         scratch: Scratch | None = None,
     ) -> None:  # fmt: skip
         self._k, self._problem, self._set = programs, problem, settings
@@ -259,7 +258,7 @@ class Solver:
         self._ends = k.end.on(self.states, *at_end), k.end.on(w.new_states, *at_end)
         self._end_in_hover = k.end.on(self._hover, *at_end)
 
-    def take(self, lane: int, problem: Problem, states: Lanes, commands: Lanes, source: int) -> None:
+    def take(self, lane: int, problem: Problem, states: Array, commands: Array, source: int) -> None:
         """Begin another problem on a `lane`: that on the lane `source` of `problem`, `states` and `commands`."""
         own = (self.states, self.commands, *self._problem.arrays)
         for old, new in zip(own, (states, commands, *problem.arrays), strict=True):
@@ -286,7 +285,7 @@ class Solver:
             self._value(new=False, gap=0.0)
         self._dual[..., on] = self._mu[..., on] / self._slack[..., on]
 
-    def iterate(self, lane: int) -> tuple[Lanes, Lanes]:
+    def iterate(self, lane: int) -> tuple[Array, Array]:
         """Return copies of the states (stages + 1, 24 + n) and commands (stages, n) of a `lane`."""
         return self.states[self._after, :, lane].copy(), self.commands[self._stages, :, lane].copy()
 
@@ -310,7 +309,7 @@ class Solver:
         """Set the number at `place` of the inequalities, a `weight`, in the lanes `on`."""
         self._problem.numbers[place, on] = weight
 
-    def aim(self, vehicle: Lanes, hover: Lanes, force: float) -> None:
+    def aim(self, vehicle: Array, hover: Array, force: float) -> None:
         """Let `vehicle` (k, lanes) be its numbers, and `hover` (24 + n, lanes) the end.
 
         Rotor forces are in a new unit, whose ratio to the old one is `force`.
@@ -323,7 +322,7 @@ class Solver:
         self._end_in_hover(0, 1)
         np.negative(self._errors, out=self._offset)
 
-    def restart(self, stages: slice, state: Lanes) -> None:
+    def restart(self, stages: slice, state: Array) -> None:
         """Go on with `stages` only, from `state` (24 + n, lanes): the ball holds all states, and slacks are theirs."""
         self._stages, self.states[stages.start] = stages, state
         self._fit(slice(None))
@@ -335,7 +334,7 @@ class Solver:
         self._problem.numbers[SHARED] = self._asked[0] / (1 + early * self.shared)
         self._adapt(self.step()[0])
 
-    def step(self) -> tuple[Lanes, Lanes]:
+    def step(self) -> tuple[Array, Array]:
         """Take a step; return its length (lanes,), 0 where the merit did not fall, and the most."""
         with np.errstate(all="ignore"):
             self._solve()
@@ -368,14 +367,14 @@ class Solver:
         self._price = np.maximum(1.0, 1.2 * self._price)
         self.merit, self.lack, self.end, self._wished = self._value(new=False, gap=self.gap)
 
-    def _recur(self) -> Lanes:
+    def _recur(self) -> Array:
         """Go backward through the stages; return c, g and v (3, lanes) of the cost to go from the first."""
         first, c = self._stages.start, self._k.layout.of_shared
         self._back(first, self._stages.stop - first)
-        found: Lanes = self._w.to_go[first, c : c + 3]
+        found: Array = self._w.to_go[first, c : c + 3]
         return found
 
-    def _search(self) -> tuple[Lanes, Lanes]:
+    def _search(self) -> tuple[Array, Array]:
         """Shorten the step until the merit falls, lane by lane, and take it. Returns as `step`."""
         settings, w, stages, after = self._set, self._w, self._stages, self._after
         turns = np.maximum(*(np.abs(w.delta[after, turning]).max(axis=(0, 1)) for turning in (ATTITUDE, ROD)))
@@ -403,7 +402,7 @@ class Solver:
             np.copyto(old, new, where=found)
         return np.where(found, length, 0.0), most
 
-    def _fly(self, length: Lanes) -> None:
+    def _fly(self, length: Array) -> None:
         """Fly a step of this `length` (lanes,) into the new states and commands, with trial values of the slacks."""
         stages, exact, w = self._stages, self._k.exact, self._w
         first, slack = stages.start, self._slack[stages]
@@ -415,7 +414,7 @@ class Solver:
         self._new_shared[0] = np.maximum(self.shared + length * self._epsilon[0], kept.max(axis=0))
         w.trial[stages, exact:] = slack[:, exact:] + length * w.s_step[stages, exact:]
 
-    def _value(self, *, new: bool, gap: Lanes | float) -> tuple[Lanes, Lanes, Lanes, Lanes]:
+    def _value(self, *, new: bool, gap: Array | float) -> tuple[Array, Array, Array, Array]:
         """Return merit, lack, largest error at the end and cost of one's own, (lanes,) each, and write the slacks.
 
         They are those of the `new` states and commands, or of the old ones.
@@ -429,7 +428,7 @@ class Solver:
         merit += self._price[0] * gap + self._price[1] * violation
         return merit, lack, np.abs(self._errors).max(axis=0), wished[0] if wished else np.zeros_like(own)
 
-    def _adapt(self, length: Lanes) -> None:
+    def _adapt(self, length: Array) -> None:
         """Adapt damping, barrier and weight of the end to the `length` of the step."""
         settings = self._set
         damping = np.where(length >= settings.long, settings.better * self.damping, self.damping)
@@ -444,7 +443,7 @@ class Solver:
             grown = np.minimum(settings.end_growth * self._weight[0], settings.most_end_weight)
             self._weight[0] = np.where(missed, grown, self._weight[0])
 
-    def _yield(self, length: Lanes) -> None:
+    def _yield(self, length: Array) -> None:
         """Let errors at the end come as near to their tolerances as the cost wants them, by a multiplier for each.
 
         The offset is the multiplier over the weight, which grows where errors are far too large, and falls again. After
@@ -458,11 +457,11 @@ class Solver:
         self._weight[0] = np.clip(factor * before, settings.end_weight, settings.most_end_weight)
         self._offset[:] = np.sign(self._errors) * pushed * (before / self._weight[0])
 
-    def _squared(self, states: Lanes, stages: slice) -> Lanes:
+    def _squared(self, states: Array, stages: slice) -> Array:
         """Return the squared distances (k, lanes) of the pivot from where it is to be, at the beginning of `stages`."""
         places, x = self._problem.places, states[stages, POSITION]
         x = x if places is None else x - places[stages]
-        distances: Lanes = (x * x).sum(axis=1)
+        distances: Array = (x * x).sum(axis=1)
         return distances
 
     def _fit(self, on: Any) -> None:
@@ -471,6 +470,6 @@ class Solver:
         most = self._squared(self.states, self._after).max(axis=0)[on]
         self.shared[on] = np.maximum(self.shared[on], (1 + share) * most + more)
 
-    def damp(self, damping: Lanes) -> None:
+    def damp(self, damping: Array) -> None:
         """Set the `damping` (lanes,) of commands, and of states in proportion."""
         self._damping[:] = self._set.state_damping * damping, damping

@@ -19,20 +19,19 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 
 RIM = 24  # corners of the polygons that stand for discs
 STEEP = 1e-3  # least sine between the normal and what is up in the window
 TINY = 1e-12
 
-Array = NDArray[np.float64]
 # Centre, axes; half widths, slopes and half depth of the neck; reach, and radius and height of the body.
 NUMBERS = 3 + 9 + 2 + 2 + 1 + 3
 ROWS = 10

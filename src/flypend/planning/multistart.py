@@ -198,6 +198,8 @@ class Watch:
     `first`.
     """
 
+    enough = STEADY_FOR  # iterations in a row
+
     def __init__(
         self, jobs: Sequence[Job], on: Sequence[int], most: int = MOST_ITERATIONS, first: float = SOFT_FIRST,
         settings: Settings = DEFAULT,
@@ -212,7 +214,7 @@ class Watch:
     @property
     def done(self) -> bool:
         """Whether more iterations are not worth their time."""
-        return self._steady >= STEADY_FOR or self._iterations >= self._most or self._stuck
+        return self._steady >= self.enough or self._iterations >= self._most or self._stuck
 
     def before(self, solver: Solver | Race) -> None:
         """Prepare an iteration: what must not be touched costs more and more to be near."""
@@ -248,28 +250,24 @@ class Watch:
 class FinalWatch(Watch):
     """Watches a lane that solves a `job` to the end with `settings`: until the conditions of first order hold."""
 
+    enough = STATIONARY_FOR
+
     def __init__(self, job: Job, lane: int = 0, settings: Settings = FINAL) -> None:
         super().__init__([job], [lane], MOST_FINAL, SOFT_LAST, settings)
-        self._times = 0
-
-    @property
-    def done(self) -> bool:
-        """Whether more iterations are not worth their time."""
-        return self._times >= STATIONARY_FOR or self._iterations >= self._most or self._stuck
 
     def after(self, solver: Solver | Race, verdict: Verdict, spent: float) -> None:
         """Look at the lane after an iteration, which took `spent` (s): what converges counts, else the best."""
         lane = int(self._on[0])
         small = verdict.stationarity[lane] <= STATIONARY and verdict.barrier[lane] <= self.settings.least_barrier
         stationary = bool(small and np.isfinite(verdict.cost[lane]))
-        self._best = np.inf if stationary else self._best
+        times, self._best = (self._steady + 1, np.inf) if stationary else (0, self._best)
         super().after(solver, verdict, spent)
-        self._times = self._times + 1 if stationary else 0
+        self._steady = times
 
     def found(self, solver: Solver | Race) -> Found:
         """Return the iterate that converged, or else the best."""
         found = super().found(solver)
-        return replace(found, unfinished="") if self._times >= STATIONARY_FOR else found
+        return replace(found, unfinished="") if self._steady >= self.enough else found
 
 
 def agreeing(costs: ArrayLike) -> int:

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 
 import flypend as fp
 from flypend.planning.durations import HORIZONS
+from flypend.planning.multistart import Found, Guess, Job
 from flypend.planning.problem import Request, request
-from flypend.planning.search import Found, Guess, Job, finished, improved, prepare, together
+from flypend.planning.search import finished, improved, prepare, together
 
 Array = NDArray[np.float64]
 

@@ -36,11 +36,11 @@ from flypend.planning.constraints import Constraints
 from flypend.planning.durations import HORIZONS
 from flypend.planning.dynamics import Scaled, step_once
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, end_errors
+from flypend.planning.multistart import NOT_REACHED, Found, Job
 from flypend.planning.planner import ORDER
 from flypend.planning.problem import Request, request
-from flypend.planning.search import NOT_REACHED, Found, Job, make_guesses, one_by_one, stages_of
+from flypend.planning.search import make_guesses, one_by_one, plan_of, stages_of
 from flypend.planning.solver import Settings
-from flypend.planning.verdict import plans_of
 from flypend.plants.lag import step_timing
 
 TOLERANCE, ITERATIONS = 1e-6, 300
@@ -184,7 +184,7 @@ class Shooting:
         lacks = NOT_REACHED if not self.broken(z, asked.start) <= BROKEN else ""
         cost = cost_of(asked, states, commands)
         what = Found(states, commands, cost, lacks, "", 0, (cost,), 0.0, iterations, took)
-        return Answer(plans_of([asked], [what], self.horizon)[0], cost, took, derivatives)
+        return Answer(plan_of(asked, what, self.horizon), cost, took, derivatives)
 
 
 def cost_of(asked: Request, states: Any, commands: Any) -> float:
@@ -243,7 +243,8 @@ def compare(objective: str, starts: Sequence[fp.State], names: Sequence[str]) ->
     duration = HORIZONS[0] * asked[0].units.time
     plans = [fp.plan(VEHICLE, start, objective, duration=duration, time_limit=PATIENT) for start in starts]
     best = [of_plan(*pair) for pair in zip(asked, plans, strict=True)]
-    alone = plans_of(asked, one_by_one([Job(each, ORDER[0]) for each in asked], HORIZONS[0]), HORIZONS[0])
+    found = one_by_one([Job(each, ORDER[0]) for each in asked], HORIZONS[0])
+    alone = [plan_of(each, what, HORIZONS[0]) for each, what in zip(asked, found, strict=True)]
     show(f"{objective}, plan", best, best)
     show(f"{objective}, plan from one guess", [of_plan(*pair) for pair in zip(asked, alone, strict=True)], best)
     for name, solve in rivals(Shooting(asked[0]), asked[0], names).items():

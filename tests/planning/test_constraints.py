@@ -134,9 +134,7 @@ def test_a_constraint_of_ones_own_sees_si_units(name):
     forces = rng.uniform(*vehicle.rotor_limits, len(vehicle.rotor_spins))
     asked = request(vehicle, start, "excursion", (0.3, -0.2, 0.4), forces, fp.Constraints(keep=keep))
     stage = Stage(asked.rotors)
-    g = inequalities(
-        stage.before, stage.command, ca.SX(1), ca.SX(asked.numbers), ca.SX(3, 1), asked.structure, stage.machine
-    )
+    g = inequalities(stage.before, stage.command, ca.SX(1), ca.SX(asked.numbers), ca.SX(3, 1), asked.structure)
     given = ca.Function("g", [stage.before, stage.command], [g])(asked.start, np.ones(asked.rotors))
     wanted = keep(Motion(start.x, start.x_dot, start.R, start.omega, start.y, start.y_dot, forces))
     wanted = np.concatenate([np.array(value).ravel() for value in wanted])

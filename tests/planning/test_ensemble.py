@@ -6,11 +6,11 @@ import pytest
 import flypend as fp
 from flypend.flight.tasks import task_starts
 from flypend.planning.durations import HORIZONS
+from flypend.planning.multistart import Job
 from flypend.planning.planner import ORDER
 from flypend.planning.problem import request
-from flypend.planning.search import Job, make_guesses, one_by_one
+from flypend.planning.search import make_guesses, one_by_one, plan_of
 from flypend.planning.solver import Solver, programs
-from flypend.planning.verdict import plans_of
 
 HEHN = fp.vehicle("hehn2011")
 STARTS = fp.random_starts(11, seed=909)
@@ -45,7 +45,7 @@ def test_a_plan_that_touches_on_the_way_is_not_the_last_word():
     hub = HEHN.replace(mount="hub")
     starts = task_starts(hub, 6, 3)["random"][np.array([4])]
     asked = request(hub, starts[0], "excursion", (0, 0, 0))
-    one = plans_of([asked], one_by_one([Job(asked, ORDER[0])], HORIZONS[0]), HORIZONS[0])[0]
+    one = plan_of(asked, one_by_one([Job(asked, ORDER[0])], HORIZONS[0])[0], HORIZONS[0])
     assert "touched" in one.reason
     assert np.all(fp.plan_ensemble(hub, starts, guesses=1).success)
 

@@ -7,13 +7,14 @@ import pytest
 
 import flypend as fp
 from flypend.geometry import norm
+from flypend.planning import search
 from flypend.planning.constraints import broken
 from flypend.planning.dynamics import LEAST_ROOM, Units
+from flypend.planning.multistart import FINAL, STATIONARY, Job
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
-from flypend.planning.search import FINAL, STATIONARY, Job, make_guesses, together
+from flypend.planning.search import make_guesses, together
 from flypend.planning.solver import DEFAULT, Solver, programs
-from flypend.planning.verdict import plans_of
 from flypend.plants.equations import EquationsEngine
 
 HEHN = fp.vehicle("hehn2011")
@@ -260,7 +261,7 @@ def test_guesses_race_with_and_without_constraints(start, knowing, by_chance):
     asked = request(HEHN, fp.random_starts(400, 9001)[start], "excursion", (0, 0, 0), kept=kept)
     free = asked.unconstrained()
     races = together(asked, 12.5, np.inf, 22, rounds), together(free, 12.5, np.inf, 22, rounds, kept=asked)
-    assert [bool(plan) for plan in plans_of([asked] * 2, races, 12.5)] == [knowing, by_chance]
+    assert [bool(search.plan_of(asked, race, 12.5)) for race in races] == [knowing, by_chance]
     plan = plan_within(asked, 12.5, 22, rounds)
     assert plan
     points = np.stack([plan.x, plan.x + HEHN.reach * plan.y])[..., :2]

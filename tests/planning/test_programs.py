@@ -15,9 +15,10 @@ from flypend.compile.numeric import as_numpy
 from flypend.planning import feedback
 from flypend.planning.dynamics import Units
 from flypend.planning.inequalities import Structure
+from flypend.planning.multistart import Job, Race, work
 from flypend.planning.problem import request
 from flypend.planning.riccati import backward
-from flypend.planning.search import Job, Race, make_guesses, work
+from flypend.planning.search import make_guesses
 from flypend.planning.solver import Problem, Solver, programs
 from flypend.plants.lag import step_timing
 

@@ -14,10 +14,10 @@ from flypend.planning import real_time as real_time_module
 from flypend.planning import receding_horizon
 from flypend.planning.dynamics import Units
 from flypend.planning.inequalities import BASE, OWN
+from flypend.planning.multistart import NOT_KEPT, Verdict
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import request
 from flypend.planning.real_time import PlanInFlight, RealTime, hover_under, in_weights
-from flypend.planning.search import NOT_KEPT, Verdict
 from flypend.planning.solver import Measures
 from flypend.plants.equations import EquationsEngine
 from flypend.settings.laws import law_from, law_named

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypedDict
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
@@ -19,10 +19,8 @@ from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
 from flypend.model.state import SIZE
+from flypend.planning.dynamics import Array
 from flypend.planning.window import NEAR, Window
-
-Array = NDArray[np.float64]
-
 
 CLEARANCE = 0.01  # m
 TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
@@ -243,8 +241,7 @@ def broken(packed: Array, rotor_forces: Array, vehicle: Vehicle, kept: Constrain
     """Return what the states `packed` (n, 24) with `rotor_forces` (n, k) of `vehicle` break most of `kept`; or "".
 
     A length or, in m/s, a speed or, in rad, an angle may be exceeded by `TOLERANCE`, what is one's own by
-    `OWN_TOLERANCE`. The mount's limits count too: what
-    the rod touches ends a flight.
+    `OWN_TOLERANCE`. The mount's limits count too: what the rod touches ends a flight.
     """
     state, tolerance = State.trusted(packed), TOLERANCE * vehicle.l
     if kept.walls is not None:

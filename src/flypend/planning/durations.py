@@ -13,29 +13,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
 
+from flypend.planning.multistart import FINAL, FINAL_IN_TIME, SOFT_LAST, Found, Guess, Job, Watch, agreeing
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.result import Plan
-from flypend.planning.search import (
-    FINAL,
-    FINAL_IN_TIME,
-    SOFT_LAST,
-    Found,
-    Guess,
-    Job,
-    Watch,
-    agreeing,
-    finished,
-    guesses_of,
-    improved,
-    together,
-)
+from flypend.planning.search import Tried, finished, guesses_of, improved, together
 from flypend.planning.solver import Settings
-from flypend.planning.verdict import plans_of
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
 # Tried before a time that is asked for, which may be longer than is good, and the last of them before `HORIZONS` where
@@ -57,29 +44,10 @@ MOST = 8  # go on
 FEWEST = 56  # stages, so that switching times are free enough
 
 
-@dataclass(frozen=True)
-class Tried:
-    """What came of an attempt at a request with a `horizon` (√(l/g))."""
-
-    asked: Request
-    horizon: float
-    found: Found
-    plan: Plan
-
-    def __bool__(self) -> bool:
-        """Whether the plan can be flown."""
-        return bool(self.plan)
-
-
 class Search:
-    """Attempts at a plan, and what they took.
+    """Attempts at a plan, and what they took, until this thread's processor time is the `deadline` (s).
 
-    Parameters
-    ----------
-    attempts : sequence of Request
-        The same request in one or several forms, of which the first counts that leads to a plan.
-    deadline : float
-        Processor time of this thread at which it ends, s.
+    The `attempts` are the same request in one or several forms, of which the first counts that leads to a plan.
     """
 
     def __init__(self, attempts: Sequence[Request], deadline: float) -> None:
@@ -101,8 +69,7 @@ class Search:
 
     def warm(self, tried: Tried, horizon: float, guess: Guess, watch: Watch | None = None) -> Tried:
         """Try another `horizon`, from a `guess` that comes of what was `tried`."""
-        job = Job(tried.asked, tried.found.style)
-        return self._judged(tried.asked, horizon, improved(job, horizon, guess, self._deadline, watch))
+        return self._judged(tried.asked, horizon, improved(tried.job, horizon, guess, self._deadline, watch))
 
     def each(self, horizon: float, stages: int) -> list[Tried]:
         """Try the last form of the request from every guess that there is, each by itself, in so many `stages`."""
@@ -120,10 +87,8 @@ class Search:
         forms = [tried.asked, *(self._attempts[-1:] if self._attempts[-1] is not tried.asked else [])]
         for asked in forms:  # what kept a constraint by chance may not do so to the end
             job = Job(asked, tried.found.style)
-            final = self._judged(
-                asked, tried.horizon, finished(job, tried.horizon, tried.found, self._deadline, settings)
-            )
-            if final and (not final.found.unfinished or final.found.cost < tried.found.cost):
+            found = finished(job, tried.horizon, tried.found, self._deadline, settings)
+            if (final := tried.ended(self._judged(asked, tried.horizon, found))) is not tried:
                 return final
         return tried
 
@@ -140,7 +105,7 @@ class Search:
 
     def _judged(self, asked: Request, horizon: float, found: Found) -> Tried:
         self._spent += found.spent
-        return Tried(asked, horizon, found, plans_of([asked], [found], horizon)[0])
+        return Tried.of(asked, found, horizon)
 
 
 def ladder(duration: float | None, asked: Request) -> list[float]:
@@ -201,7 +166,7 @@ def shortest(search: Search, horizons: Sequence[float]) -> Plan:
 def _shortened(search: Search, tried: Tried, step: float) -> Tried:
     """Return what was `tried` with a horizon shortened by the share `step`, as often as that works."""
     while True:
-        watch = Watch([Job(tried.asked, tried.found.style)], [0], TRIES, SOFT_LAST)
+        watch = Watch([tried.job], [0], TRIES, SOFT_LAST)
         shorter = search.warm(tried, (1 - step) * tried.horizon, (tried.found.states, tried.found.commands), watch)
         if not shorter:
             return tried

@@ -28,7 +28,9 @@ from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.riccati import unpack_gains
 from flypend.plants.cascade import cascade_step
-from flypend.plants.lag import TIMING_SIZE, hold
+from flypend.plants.lag import TIMING_SIZE, hold, step_timing
+
+Array = NDArray[np.float64]
 
 MOTION = 16  # coordinates of a state without its rotors
 POSITION, VELOCITY, ATTITUDE, SPIN, ROD, SWING = (
@@ -39,15 +41,10 @@ LEAST_ROOM = 1e-9  # own units: less would be lost in the rounding of a command
 
 @dataclass(frozen=True)
 class Scaled:
-    """Symbols of a vehicle in its own units, with the attributes that the equations of motion read.
+    """Symbols of a vehicle with so many `rotors` in its own units, with the attributes that equations of motion read.
 
-    Parameters
-    ----------
-    numbers : SX (k, 1)
-        Bob mass, inverse inertia and inertia (upper triangles), the rows of the mixing matrix for the moment, and
-        constant forces from outside on vehicle and bob, in weights.
-    rotors : int
-        Number of rotors n.
+    The `numbers` (k, 1) are bob mass, inverse inertia and inertia (upper triangles), the rows of the mixing matrix for
+    the moment, and constant forces from outside on vehicle and bob, in weights.
     """
 
     numbers: ca.SX
@@ -106,7 +103,12 @@ class Units:
             raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
         return cls(vehicle.l, float(np.sqrt(vehicle.l / vehicle.g)), vehicle.weight / len(vehicle.rotor_spins))
 
-    def numbers(self, vehicle: Vehicle) -> NDArray[np.float64]:
+    def timing(self, vehicle: Vehicle, h: float) -> Array:
+        """Return `plants.lag.step_timing` (4,) of a step `h` of `vehicle`, all in its own units."""
+        found: Array = step_timing(vehicle.rotor_lag / self.time, h)
+        return found
+
+    def numbers(self, vehicle: Vehicle) -> Array:
         """Return the numbers of `vehicle` in its own units, without forces from outside, for symbols of `Scaled`."""
         mass, upper = vehicle.M + vehicle.m, np.triu_indices(3)
         inertia = vehicle.I / (mass * self.length**2)
@@ -116,15 +118,22 @@ class Units:
         )
 
     @property
-    def of_state(self) -> NDArray[np.float64]:
+    def of_state(self) -> Array:
         """Units of the entries of a packed state (24,)."""
-        rate = 1 / self.time
-        entries = [[self.length] * 3, [self.length * rate] * 3, [1.0] * 9, [rate] * 3, [1.0] * 3, [rate] * 3]
-        return np.concatenate(entries)
+        return self._repeated((3, 3, 9, 3, 3, 3))
 
-    def states(self, rotors: int) -> NDArray[np.float64]:
+    def states(self, rotors: int) -> Array:
         """Return the units of the entries of a packed state followed by the forces of `rotors` rotors."""
         return np.append(self.of_state, np.full(rotors, self.force))
+
+    def deviations(self, rotors: int) -> Array:
+        """Return the units of the entries of a `feedback.deviation` (18 + n,) of a vehicle with so many `rotors`."""
+        return np.append(self._repeated((3,) * 6), np.full(rotors, self.force))
+
+    def _repeated(self, counts: tuple[int, ...]) -> Array:
+        """Return the units of position, velocity, attitude, spin, rod and its rate, as often as `counts` say."""
+        rate = 1 / self.time
+        return np.repeat([self.length, self.length * rate, 1.0, rate, 1.0, rate], counts)
 
 
 assert len(Units(1.0, 1.0, 1.0).of_state) == SIZE

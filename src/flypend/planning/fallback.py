@@ -17,7 +17,6 @@ from time import process_time
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend import signals
 from flypend.board.computer import SteppedBoard
@@ -25,15 +24,16 @@ from flypend.compile.llvm.stagewise import WIDTH
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
 from flypend.model.state import SIZE
-from flypend.planning.feedback import stepping
+from flypend.planning.dynamics import Array
+from flypend.planning.feedback import AS_MODELLED, stepping
+from flypend.planning.multistart import Found, work
 from flypend.planning.problem import Request
-from flypend.planning.search import Found, Relay, stages_of, work
+from flypend.planning.search import Relay, stages_of
 from flypend.plants.loop import Loop
 
 DIRECTIONS, STEPS, SUBSTEPS = 8, 12, 4
 BEYOND = 0.5  # of the wait, so much longer the rod has to keep away: a plan must be able to begin
 
-Array = NDArray[np.float64]
 # How many guesses go on after how many iterations; iterations until the first sketch, and of legs, each of which takes
 # a stage on hehn2011; and what they are in iterations of single guesses. More before the first sketch come too late,
 # fewer choose worse.
@@ -53,26 +53,20 @@ def room(path: Array, vehicle: Vehicle) -> float:
     return float(np.min(found))
 
 
-def evasion(vehicle: Vehicle, state: Array, rotors: Array, wait: float) -> tuple[Array, float, Array]:
-    """Return the constant command that keeps the rod best on its mount for a `wait` (s), that room, and the end.
+def evasion(
+    vehicle: Vehicle, state: Array, rotors: Array, wait: float, scales: Array = AS_MODELLED
+) -> tuple[Array, float, Array]:  # fmt: skip
+    """Return the constant command (n,), N, that keeps the rod best on its mount for a `wait` (s), its `room`, the end.
 
-    Parameters
-    ----------
-    vehicle : Vehicle
-        The vehicle, with a mount that limits the rod.
-    state, rotors : (24,), (n,)
-        State and rotor forces at the beginning.
-    wait : float
-        Duration, s.
-
-    Returns
-    -------
-    command, room, end : (n,), float, (24 + n,)
-        The command, N, its `room`, and state and rotor forces after the wait.
+    `state` (24,) and `rotors` (n,), N, are those at the beginning, the end (24 + n,) are those after the wait. `scales`
+    (2,) are thrust and moment over those of the `vehicle`.
     """
-    paths = [(command, *_fly_command(vehicle, state, rotors, command, wait)) for command in commands(vehicle)]
-    command, path, end = max(paths, key=lambda flown: room(flown[1], vehicle))
-    return command, room(path, vehicle), end
+    begin = np.append(state, rotors)
+    times = (wait / STEPS * np.arange(round(STEPS * (1 + BEYOND)) + 1)).tolist()
+    held = [Schedule(times, [command] * (len(times) - 1)) for command in commands(vehicle)]
+    paths = [schedule.flown(vehicle, begin, scales, 1) for schedule in held]
+    schedule, path = max(zip(held, paths, strict=True), key=lambda flown: room(flown[1], vehicle))
+    return schedule.commands[0], room(path, vehicle), path[STEPS]
 
 
 def commands(vehicle: Vehicle) -> list[Array]:
@@ -83,15 +77,6 @@ def commands(vehicle: Vehicle) -> list[Array]:
     sides = np.sign(np.round(np.column_stack([np.cos(angles), np.sin(angles)]) @ centres[:, :2].T / vehicle.l, 6))
     even = [np.full(n, force) for force in (low, vehicle.weight / n, high)]
     return [*even, *((low + high) / 2 + (high - low) / 2 * sides)]
-
-
-def _fly_command(vehicle: Vehicle, state: Array, rotors: Array, command: Array, wait: float) -> tuple[Array, Array]:
-    """Return the path under a `command` through the `wait` and `BEYOND`, and where it is after the wait."""
-    step, h = stepping(vehicle), wait / STEPS
-    path = [np.append(state, rotors)]
-    for _ in range(round(STEPS * (1 + BEYOND))):
-        path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h))
-    return np.array(path), path[STEPS]
 
 
 class Schedule(NamedTuple):
@@ -110,12 +95,17 @@ class Schedule(NamedTuple):
         place = bisect_left(self.times, later.times[0] - 1e-9)
         return Schedule([*self.times[:place], *later.times], [*self.commands[:place], *later.commands])
 
-    def flown(self, vehicle: Vehicle, begin: Array) -> Array:
-        """Return states and rotor forces (SUBSTEPS · k + 1, 24 + n) from `begin` (24 + n,) to the end."""
+    def flown(
+        self, vehicle: Vehicle, begin: Array, scales: Array = AS_MODELLED, substeps: int = SUBSTEPS
+    ) -> Array:  # fmt: skip
+        """Return states and rotor forces (substeps · k + 1, 24 + n) from `begin` (24 + n,) to the end.
+
+        `scales` (2,) are thrust and moment over those of `vehicle`.
+        """
         step, path = stepping(vehicle), [begin]
-        for command, h in zip(self.commands, np.diff(self.times) / SUBSTEPS, strict=True):
-            for _ in range(SUBSTEPS):
-                path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h))
+        for command, h in zip(self.commands, np.diff(self.times) / substeps, strict=True):
+            for _ in range(substeps):
+                path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h, scales=scales))
         return np.array(path)
 
 
@@ -132,10 +122,13 @@ class Lead(NamedTuple):
 
 
 class Fallback:
-    """What flies until there is a plan, on the closed loop `by_law`; the rod keeps `clearance` (m) if it can."""
+    """What flies until there is a plan, on the closed loop `by_law`; the rod keeps `clearance` (m) if it can.
+
+    `scales` (2,) are those of thrust and moment, true over those of the vehicle.
+    """
 
     def __init__(self, by_law: Loop, clearance: float) -> None:
-        self._vehicle, self._clearance = by_law.vehicle, clearance
+        self._vehicle, self._clearance, self.scales = by_law.vehicle, clearance, AS_MODELLED
         self._loop = replace(by_law, plant=by_law.sampled.replace(sensors=None))
 
     def until(self, t: float, begin: Array, wait: float) -> Lead:
@@ -149,7 +142,7 @@ class Fallback:
         """Return what the rod keeps, m, before the answer of `until`."""
         path = self._under_law(t, begin, wait)
         if (kept := self._kept(path)) < self._clearance:
-            command, better, there = evasion(self._vehicle, begin[:SIZE], begin[SIZE:], wait)
+            command, better, there = evasion(self._vehicle, begin[:SIZE], begin[SIZE:], wait, self.scales)
             if better > kept:
                 return better, Lead(Schedule((t, math.inf), (command,)), there, wait)
         return kept, Lead(None, path[-1], wait)
@@ -166,17 +159,17 @@ class Fallback:
         would come too near to what it may touch; then as `until`. Raises InputError as `ask` does.
         """
         held = Schedule((t, t + first), (np.clip(begin[SIZE:], *self._vehicle.rotor_limits),))
-        path, begun = held.flown(self._vehicle, begin), process_time()
+        path, begun = held.flown(self._vehicle, begin, self.scales), process_time()
         asked = ask(t + first, path[-1])
         # Walls, which so few iterations cannot keep, would only choose the way worse.
         relay = Relay(asked.unconstrained() if asked.kept.loose else asked, horizon, ROUNDS, SOFT)
-        found, stage, force = relay.improve(LEGS[0]), stages_of(horizon)[1] * asked.units.time, asked.units.force
+        found, stage, force = relay.leg(LEGS[0]), stages_of(horizon)[1] * asked.units.time, asked.units.force
         counts = [math.ceil(leg / stage - 1e-9) for leg in legs]
         if stage * sum(counts) > alone:
             counts = []
         now, wait = t + first, first + (stage * sum(counts) if counts else alone)
         sketch = _schedule(found.commands * force, now, t + wait, stage)
-        ahead = sketch.flown(self._vehicle, path[-1])
+        ahead = sketch.flown(self._vehicle, path[-1], self.scales)
         late = measured and process_time() - begun > first
         kept = -math.inf if late else self._kept(np.concatenate([path, ahead]))
         if not kept >= self._clearance:
@@ -188,9 +181,10 @@ class Fallback:
         for count, iterations in zip(counts, LEGS[1:], strict=False):
             now, passed, ahead, begun = now + stage * count, passed + count, ahead[SUBSTEPS * count :], process_time()
             relay.begin_at(passed, ask(now, ahead[0]).start)
-            found = relay.improve(iterations)
+            found = relay.leg(iterations)
             sketch = _schedule(found.commands * force, now, t + wait, stage)
-            path, late = sketch.flown(self._vehicle, ahead[0]), measured and process_time() - begun > stage * count
+            path = sketch.flown(self._vehicle, ahead[0], self.scales)
+            late = measured and process_time() - begun > stage * count
             if not late and self._kept(path) >= min(self._clearance, self._kept(ahead)):
                 flies, ahead = flies.then(sketch), path
         return Lead(flies, ahead[-1], wait, found if counts else None)
@@ -206,7 +200,7 @@ class Fallback:
             signals.poll()
             h, here = min(period, duration - passed), path[-1]
             command = board.command(t + passed, here[:SIZE])
-            path.append(step(here[:SIZE], here[SIZE:], command, h))
+            path.append(step(here[:SIZE], here[SIZE:], command, h, scales=self.scales))
             passed += h
         return np.array(path)
 

@@ -13,13 +13,12 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import ATTITUDE, MOTION, ROD, SWING, Units, between, plane, turn_by
+from flypend.planning.dynamics import ATTITUDE, MOTION, ROD, SWING, Array, Units, between, plane, turn_by
 from flypend.planning.inequalities import Structure
 from flypend.planning.result import Plan
 from flypend.planning.solver import Scratch, one_lane, programs
@@ -34,7 +33,6 @@ MOST_HEADING = 0.3  # rad, to which feedback in hover takes the heading
 TINY = 1e-12  # keeps a heading finite that does not exist, or is half a turn away
 HOVER_STAGES = 300  # after so many the cost to go of hover has settled: 25 √(l/g)
 
-Array = NDArray[np.float64]
 STILL, AS_MODELLED = np.zeros(6), np.ones(2)
 
 
@@ -78,19 +76,16 @@ def _hover(plan: Plan) -> Array:
 def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: float) -> Array:
     """Return the gains (stages, n, 18 + n) of the regulator in SI units, by one recursion from zero cost to go."""
     n, count = commands.shape[1], len(commands)
-    compiled, w = programs(n, Structure(), lanes=False), Scratch(programs(n, Structure(), lanes=False), count, 1)
-    own, forces = one_lane(states / units.states(n)), one_lane(commands / units.force)
-    timing = one_lane(np.array(step_timing(vehicle.rotor_lag / units.time, h)))
+    compiled = programs(n, Structure(), lanes=False)
+    w, own, forces = Scratch(compiled, count, 1), one_lane(states / units.states(n)), one_lane(commands / units.force)
+    timing = one_lane(units.timing(vehicle, h))
     compiled.linearised(count, own, own[1:], forces, timing, one_lane(units.numbers(vehicle)), w.d, w.slopes)
     w.cost[:] = _cost(n)[:, None]
     compiled.backward(count, w.to_go[1:], w.slopes, w.d, w.cost, one_lane(np.zeros(2)), w.to_go, w.gains)
     K = -w.gains[:, : n * (MOTION + n), 0].reshape(count, n, MOTION + n)
-    b = np.array(_planes().map(count)(states[:-1, 18:21].T)).reshape(3, count, 2).transpose(1, 0, 2)
-    whole = np.concatenate(
-        [K[:, :, :12], K[:, :, ROD] @ b.transpose(0, 2, 1), K[:, :, SWING] @ b.transpose(0, 2, 1), K[:, :, MOTION:]],
-        axis=2,
-    )
-    return whole * units.force / of_deviation(units, n)
+    b = np.array(_planes().map(count)(states[:-1, 18:21].T)).reshape(3, count, 2).transpose(1, 2, 0)
+    whole = np.concatenate([K[:, :, :12], K[:, :, ROD] @ b, K[:, :, SWING] @ b, K[:, :, MOTION:]], axis=2)
+    return whole * units.force / units.deviations(n)
 
 
 @lru_cache(maxsize=1)
@@ -111,14 +106,6 @@ def _cost(n: int) -> Array:
     layout = programs(n, Structure(), lanes=False).layout
     cost = layout.cost(*(ca.SX(ca.DM(part)) for part in (Q, R, none, none, np.zeros(n), 1.0, 0.0)))
     return np.array(ca.DM(ca.evalf(cost))).ravel()
-
-
-def of_deviation(units: Units, n: int) -> Array:
-    """Return the units of the entries of a `deviation` (18 + n,) of a vehicle with `units` and n rotors."""
-    rate = 1 / units.time
-    return np.concatenate(
-        [[units.length] * 3, [units.length * rate] * 3, [1.0] * 3, [rate] * 3, [1.0] * 3, [rate] * 3, [units.force] * n]
-    )
 
 
 def deviation(rotors: int) -> ca.Function:

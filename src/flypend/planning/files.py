@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict, fields
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -36,7 +37,7 @@ ATTRIBUTES: Mapping[str, type] = {
     "iterations": float, "stationarity": float, "guess": float, "guesses": float, "agreeing": float,
 }  # fmt: skip
 SEAL = "plan_digest"
-WINDOW = ("centre", "width", "height", "normal", "up", "depth")
+WINDOW = [field.name for field in fields(Window)]
 MOST_COUNT = 10**9
 # By how much times may miss the stages, and forces the limits, relative to the largest: rounding in other units.
 SLACK = 1e-9
@@ -54,16 +55,12 @@ def content(plan: Any) -> tuple[dict[str, Variable], dict[str, Any]]:
         variables[name] = Variable(tuple(map(str, field.dims)), getattr(plan, name), {"units": field.unit})
     attributes |= {name: getattr(plan, name) for name in ATTRIBUTES if name not in ("objective", "windows")}
     attributes["objective"] = json.dumps(dict(plan.objective))
-    attributes["windows"] = json.dumps([_plain(window) for window in plan.windows])
+    attributes["windows"] = json.dumps([*map(asdict, plan.windows)], default=np.ndarray.tolist)
     return variables, attributes | {SEAL: check(vars(run), attributes["digest"], variables, attributes)[1]}
 
 
 def _lengths(vehicle: Vehicle) -> dict[str, int]:
     return saved.LENGTHS | {"rotor": len(vehicle.rotor_spins)}
-
-
-def _plain(window: Window) -> dict[str, Any]:
-    return {name: np.asarray(getattr(window, name)).tolist() for name in WINDOW}
 
 
 def fields_of(path: str | Path) -> dict[str, Any]:

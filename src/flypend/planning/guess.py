@@ -21,18 +21,15 @@ from functools import lru_cache
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.geometry import E3, cross, dot, norm, unit
-from flypend.model import State, Vehicle
+from flypend.model import State
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Stage, Units, cayley, turn_by
+from flypend.planning.dynamics import Array, Stage, cayley, turn_by
 from flypend.planning.problem import Request
 from flypend.planning.riccati import solve
 from flypend.plants.lag import hold
-
-Array = NDArray[np.float64]
 
 # Per style: largest acceleration of the pivot, k, bandwidth of its position, E*, k_c, the height y₃ above which the rod
 # is balanced, its squared speed up to which it is, and whether it is caught below that height instead of pumped. They
@@ -66,15 +63,8 @@ assert len(PUMPS) == len(CATCHES) == WIDTH
 # 0.7 m, with hehn2011.
 FIRST = [(0, 0, 0), (0, 0, 0), (0, 0.4, 2), (0.4, 0, 2), (0.6, 0, 3), (-0.6, 0, 3), (0.4, 0, 3), (0, 0.4, 3)]
 AGAIN = [
-    (-0.4, 0, 2),
-    (-0.4, 0, 3),
-    (0.6, 0, 2),
-    (-0.6, 0, 2),
-    (0, 0.6, 3),
-    (0, 0.4, 2.5),
-    (0.5, 0, 2.5),
-    (-0.5, 0, 2.5),
-]
+    (-0.4, 0, 2), (-0.4, 0, 3), (0.6, 0, 2), (-0.6, 0, 2), (0, 0.6, 3), (0, 0.4, 2.5), (0.5, 0, 2.5), (-0.5, 0, 2.5)
+]  # fmt: skip
 WAYS = np.array([FIRST, AGAIN])
 AZIMUTHS = np.pi / 4 * np.arange(8) + 0.2  # of the ways in which the rod turns, off the planes of the rotors,
 BUMPS_ASIDE = (0.3, 0.8)  # and how wide: a straight rod turns in its plane anyway
@@ -84,18 +74,18 @@ MOST = 0.95  # of the lean that is allowed
 LEAST = 1e-9
 
 
-def styles(vehicle: Vehicle, *, falls: bool, hangs: bool = False) -> Array:
-    """Return the styles (9, lanes) for `vehicle`, the last entry being the stiffness of its attitude, own units.
+def styles(asked: Request) -> Array:
+    """Return the styles (9, lanes) for what is `asked`, the last entry being the stiffness of the attitude, own units.
 
-    `falls` is whether the rod may fall and be pumped up again, and `hangs` whether it is to hang at the end.
+    They depend on whether the rod may fall and be pumped up again, and on whether it is to hang at the end.
     """
-    units = Units.of(vehicle)
+    vehicle = asked.vehicle
     low, high = vehicle.rotor_limits
     moments = vehicle.mixing()[1:3]
     largest = np.sum(np.abs(moments), axis=1) * (high - low) / 2 / np.diag(vehicle.I)[:2]
-    stiffness = ATTITUDE_SHARE * float(np.min(largest)) * units.time**2
-    found = np.vstack([(PUMPS if falls else CATCHES).T, np.full(WIDTH, stiffness)])
-    if hangs:
+    stiffness = ATTITUDE_SHARE * float(np.min(largest)) * asked.units.time**2
+    found = np.vstack([(PUMPS if asked.falls else CATCHES).T, np.full(WIDTH, stiffness)])
+    if asked.end.y[2] < 0:
         found[ENERGY], found[TOP] = -1.0, NEVER
     return found
 
@@ -201,12 +191,7 @@ def arcs(asked: Request, stages: int, h: float) -> list[tuple[Array, Array]]:
 
 def leans(asked: Request, style: int) -> bool:
     """Whether a guess of this `style` leans in the windows that are `asked` for."""
-    return asked.leaning and bool(np.any(_way(asked, style)))
-
-
-def _way(asked: Request, style: int) -> Array:
-    way: Array = WAYS[int(asked.again), style]
-    return way
+    return asked.leaning and bool(np.any(WAYS[int(asked.again), style]))
 
 
 def lean_guess(asked: Request, style: int, stages: int, h: float) -> tuple[Array, Array]:
@@ -215,7 +200,7 @@ def lean_guess(asked: Request, style: int, stages: int, h: float) -> tuple[Array
     The first state is the start, from which it may jump.
     """
     windows, most = asked.kept.windows, float(asked.kept.lean or 0)
-    along, across, speed = _way(asked, style)
+    along, across, speed = WAYS[int(asked.again), style]
     begin, middles = asked.start[:3], [(w.centre - asked.target) / asked.units.length for w in windows]
     route = np.array([begin, *middles, np.zeros(3)])
     passed = np.cumsum(np.linalg.norm(np.diff(route, axis=0), axis=1))

@@ -84,22 +84,12 @@ class Structure:
 
 
 def inequalities(
-    state: ca.SX, command: ca.SX, shared: ca.SX, numbers: ca.SX, middle: ca.SX, structure: Structure, machine: Scaled
-) -> ca.SX:
+    state: ca.SX, command: ca.SX, shared: ca.SX, numbers: ca.SX, middle: ca.SX, structure: Structure
+) -> ca.SX:  # fmt: skip
     """Return g (k, 1), every entry of which is to be ≥ 0.
 
-    Parameters
-    ----------
-    state, command : SX
-        State and rotor forces (24 + n, 1), commanded forces (n, 1).
-    shared : SX
-        e, the squared radius of the ball.
-    numbers : SX
-        See `Structure.numbers`.
-    middle : SX
-        The middle of the ball, (3, 1).
-    structure, machine
-        What is wished, and the machine.
+    A `state` (24 + n, 1) ends with rotor forces, and `command` (n, 1) are those commanded; `shared` is e, the squared
+    radius of the ball about its `middle` (3, 1), and `numbers` are those of `Structure.numbers`.
     """
     s, place = State.symbolic(state[:SIZE]), structure.hard
     off = s.x - middle if structure.path else s.x
@@ -190,44 +180,30 @@ def running_cost(command: ca.SX, numbers: ca.SX) -> ca.SX:
 
 def end_errors(state: ca.SX, numbers: ca.SX, *, other: bool = False) -> ca.SX:
     """Return the errors of the last state about inverted hover, or an `other` end, in units of their tolerances."""
-    s = State.symbolic(state[:SIZE])
+    s, up, still = State.symbolic(state[:SIZE]), ca.SX(ca.DM(E3)), ca.SX(3, 1)
+    x_dot, z, omega, y, y_dot, hovers = still, up, still, up, still, 1
     if other:
         parts = numbers[BASE : BASE + OTHER_END]
         x_dot, z, omega, y, y_dot, hovers = (parts[i : i + 3] for i in range(0, OTHER_END, 3))
-        turning = (s.omega - omega) / ca.vertcat(END["omega"], END["omega"], numbers[YAW])
-        return ca.vertcat(
-            s.x / END["x"],
-            (s.x_dot - x_dot) / END["x_dot"],
-            _apart(s.z, z) / END["tilt"],
-            turning,
-            _apart(s.y, y) / END["y"],
-            (s.y_dot - y_dot) / END["y_dot"],
-            hovers * (state[SIZE:] - 1) / END["rotors"],
-        )
     return ca.vertcat(
         s.x / END["x"],
-        s.x_dot / END["x_dot"],
-        _lean(s.z) / END["tilt"],
-        s.omega[:2] / END["omega"],
-        s.omega[2] / numbers[YAW],
-        _lean(s.y) / END["y"],
-        s.y_dot / END["y_dot"],
-        (state[SIZE:] - 1) / END["rotors"],
+        (s.x_dot - x_dot) / END["x_dot"],
+        _apart(s.z, z) / END["tilt"],
+        (s.omega - omega) / ca.vertcat(END["omega"], END["omega"], numbers[YAW]),
+        _apart(s.y, y) / END["y"],
+        (s.y_dot - y_dot) / END["y_dot"],
+        hovers * (state[SIZE:] - 1) / END["rotors"],
     )
 
 
-def _lean(a: ca.SX) -> ca.SX:
-    """Return the error (3, 1) of a unit vector from e₃: the double tangent of half its angle, and 1 − a₃.
-
-    The tangent is kept finite upside down, where it vanishes and 1 − a₃ is 2; near e₃ that is of second order.
-    """
-    level = 2 * cross(a, ca.SX(ca.DM(E3)))[:2] / (1.05 + a[2])
-    return ca.vertcat(level, 1 - a[2])
-
-
 def _apart(a: ca.SX, b: ca.SX) -> ca.SX:
-    """Return the error (4, 1) of a unit vector from another, as `_lean` does from e₃."""
-    return ca.vertcat(2 * cross(a, b) / (1.05 + dot(a, b)), 1 - dot(a, b))
+    """Return the error of a unit vector `a` from `b`: the double tangent of half their angle (3, 1), and 1 − a·b.
+
+    The tangent is kept finite for antipodes, where it vanishes and 1 − a·b is 2; near `b` that is of second order.
+    About e₃ the third entry is always 0, and left out.
+    """
+    entries = ca.vertsplit(ca.vertcat(2 * cross(a, b) / (1.05 + dot(a, b)), 1 - dot(a, b)))
+    return ca.vertcat(*(entry for entry in entries if not entry.is_zero()))
 
 
 class Barrier:
@@ -240,7 +216,7 @@ class Barrier:
         delta, upsilon, epsilon = self._moves
         shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", structure.numbers)
         here, command, place = retract(stage.before, delta), stage.command + upsilon, ca.SX.sym("place", 3)
-        self._g = inequalities(here, command, shared + epsilon, numbers, place, structure, stage.machine)
+        self._g = inequalities(here, command, shared + epsilon, numbers, place, structure)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
         self._beyond = beyond(here, numbers, structure)
         self._near = nearness(here, stage.before, numbers, structure, stage.machine)
@@ -262,20 +238,17 @@ class Barrier:
     def values(self) -> ca.Function:
         """Return (*point, trial slack, μ, *place) → (merit, violation, lack) of the stage, and slack.
 
-        A cost of one's own, which is part of the merit, stands behind them by itself.
-
-        A point is (state, command, shared parameter, numbers, vehicle), and there is a place, where the pivot is to be,
-        only with a path. The slack of an exact inequality is g, that of another the larger of g and the trial slack:
-        what lies above g is the violation. What g itself lacks to 0, whatever its slack, is the lack.
+        A cost of one's own, which is part of the merit, stands behind them by itself. A point is (state, command,
+        shared parameter, numbers, vehicle), and there is a place, where the pivot is to be, only with a path. The slack
+        of an exact inequality is g, that of another the larger of g and the trial slack: what lies above g is the
+        violation. What g itself lacks to 0, whatever its slack, is the lack.
         """
         k, g = self._exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
         wished = ca.sumsqr(self._own) / 2
         merit = self._cost + wished + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
-        lack = (ca.sum1(slack[k:] - g[k:]), ca.sum1(ca.fmax(0, -g[k:]))) if k < g.numel() else (0, 0)
-        lack = lack[0], lack[1] + ca.sum1(ca.fmax(0, self._beyond))
-        summary = ca.vertcat(merit, *lack)
-        summary = ca.vertcat(summary, wished) if self._own.numel() else summary
+        violation, lack = ca.sum1(slack[k:] - g[k:]), ca.sum1(ca.fmax(0, ca.vertcat(-g[k:], self._beyond)))
+        summary = ca.vertcat(merit, violation, lack, *([wished] if self._own.numel() else []))
         return self._function("values", [*self._point, self._slack, self._mu, *self._place], summary, slack)
 
     def terms(self, layout: Layout) -> ca.Function:
@@ -328,7 +301,7 @@ class Barrier:
         along = sum(ca.mtimes(J, move) for J, move in zip(self._J, given, strict=True))
         ds = along + self._g - s
         dz = self._mu / s - z - z / s * ds
-        shares = ca.vertcat(_largest(-ds[k:] / s[k:]), _largest(-dz / z))
+        shares = ca.vertcat(ca.mmax(ca.vertcat(0, -ds[k:] / s[k:])), ca.mmax(ca.vertcat(0, -dz / z)))
         return self._function("steps", [*self._point, s, z, self._mu, *given, *self._place], ds, dz, shares)
 
     def end(self, layout: Layout) -> ca.Function:
@@ -338,10 +311,3 @@ class Barrier:
         P, p = weight * ca.mtimes(J.T, J), weight * ca.mtimes(J.T, h + offset)
         cost = layout.to_go(P, p, ca.SX.zeros(p.numel()), 0, self._numbers[SHARED], 0)
         return self._function("end", [self._state, self._numbers, weight, offset], h, cost)
-
-
-def _largest(values: ca.SX) -> ca.SX:
-    largest = ca.SX(0)
-    for i in range(values.numel()):
-        largest = ca.fmax(largest, values[i])
-    return largest

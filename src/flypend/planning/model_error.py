@@ -19,16 +19,13 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import cross, hat
 from flypend.model import State, Vehicle
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Units
-
-Array = NDArray[np.float64]
+from flypend.planning.dynamics import Array, Units
 
 # Standard deviations of the scales and, weights, of the forces on vehicle and bob and of the moment (over l) before
 # the flight, and of their random walks in a unit of time, √(l/g).
@@ -43,12 +40,7 @@ BLOW = 0.1  # momentum that a period changes unexplained, own units, above which
 class ModelError:
     """The departures of a `vehicle` in flight, from its states and rotor forces every `period` (s).
 
-    Attributes
-    ----------
-    scales : (2,)
-        True thrust and moment over those of the model.
-    forces : (6,)
-        Constant forces on vehicle and bob, N.
+    `scales` (2,) are true thrust and moment over those of the model, `forces` (6,) constant ones on vehicle and bob, N.
     """
 
     def __init__(self, vehicle: Vehicle, period: float) -> None:

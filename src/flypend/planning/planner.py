@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,10 +22,10 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.durations import HORIZONS, Search, in_time, ladder, shortest
 from flypend.planning.inequalities import EFFORT
+from flypend.planning.multistart import NOT_KEPT, Found, Job, agreeing
 from flypend.planning.problem import Request, end_of, request
 from flypend.planning.result import Plan, PlanEnsemble
-from flypend.planning.search import NOT_KEPT, Found, Job, agreeing, finished, improved, one_by_one, prepare, together
-from flypend.planning.verdict import plans_of
+from flypend.planning.search import Tried, finished, improved, one_by_one, plan_of, prepare, together
 from flypend.signals.waiting import result_of, threads
 
 LONGEST = 60.0  # √(l/g)
@@ -114,12 +114,9 @@ def plan(
 
 def horizon_of(asked: Request, duration: float | None) -> float | None:
     """Return a `duration` (s), if it is given, in √(l/g). Raises InputError."""
-    unit = asked.units.time
-    return (
-        None
-        if duration is None
-        else errors.number("duration", duration, above=0, at_most=LONGEST * unit, unit="s") / unit
-    )
+    if duration is None:
+        return None
+    return errors.number("duration", duration, above=0, at_most=LONGEST * asked.units.time, unit="s") / asked.units.time
 
 
 def plan_within(
@@ -127,17 +124,17 @@ def plan_within(
 ) -> Plan:
     """Return the best plan with a `horizon` (√(l/g)) that is known after so many `iterations`, whatever the clock.
 
-    `rounds` as in `search.Race`. With constraints there are two races, the second of which does not know of them. If no
-    plan keeps them, one that keeps `otherwise` will do, if that is given: of each race the one that breaks least.
+    `rounds` as in `Race`. With constraints there are two races, the second of which does not know of them. If no plan
+    keeps them, one that keeps `otherwise` will do, if that is given: of each race the one that breaks least.
     """
     found = [together(asked, horizon, math.inf, iterations, rounds)]
     if asked.kept.loose:
         found.append(together(asked.unconstrained(), horizon, math.inf, iterations, rounds, kept=asked))
-    plans = plans_of([asked] * len(found), found, horizon)
-    if not any(plans) and otherwise is not None:
+    tries = [Tried.of(asked, each, horizon) for each in found]
+    if not any(tries) and otherwise is not None:
         found = [replace(each, lacks="" if each.lacks == NOT_KEPT else each.lacks) for each in found]
-        plans = plans_of([replace(asked, kept=otherwise)] * len(found), found, horizon)
-    return min(zip(plans, found, strict=True), key=lambda each: (not each[0], each[1].cost))[0]
+        tries = [Tried.of(replace(asked, kept=otherwise), each, horizon) for each in found]
+    return min(tries, key=Tried.rank).plan
 
 
 @errors.named_arguments
@@ -203,50 +200,38 @@ def plan_ensemble(
     return PlanEnsemble(tuple(plans))
 
 
-class Best(NamedTuple):
-    """The best plan for a start so far, and what it is made of."""
-
-    failed: bool
-    cost: float
-    plan: Plan
-    found: Found
-
-
 def _plan_each(asked: Sequence[Request], horizons: Sequence[float], guesses: int) -> list[Plan]:
     """Return a plan for each request: with the first of `horizons` and the first styles that find one."""
-    best: dict[int, Best] = {}
+    best: dict[int, Tried] = {}
     spent = np.zeros(len(asked))
     costs: list[list[float]] = [[] for _ in asked]  # of the guesses with the last horizon, infinite for those that fail
     for horizon in horizons:
-        left = [i for i in range(len(asked)) if i not in best or best[i].failed]
+        left = [i for i in range(len(asked)) if not best.get(i)]
         for i in left:
             costs[i] = []
         for tried, style in enumerate(ORDER[: guesses + MORE]):
-            open_ = [i for i in left if tried < guesses or i not in best or best[i].failed]
+            open_ = [i for i in left if tried < guesses or not best.get(i)]
             if not open_:
                 break
             for i, each in zip(open_, _solve([Job(asked[i], style) for i in open_], horizon), strict=True):
                 spent[i] += each.found.spent
-                costs[i].append(np.inf if each.failed else each.cost)
-                if i not in best or each[:2] < best[i][:2]:
-                    best[i] = each
-        flown = [i for i in left if not best[i].failed]
-        jobs, before = [Job(asked[i], best[i].found.style) for i in flown], [best[i].found for i in flown]
+                costs[i].append(each.found.cost if each else np.inf)
+                best[i] = min(best.get(i, each), each, key=Tried.rank)
+        flown = [i for i in left if best[i]]
+        jobs, before = [best[i].job for i in flown], [best[i].found for i in flown]
         for i, each in zip(flown, _solve(jobs, horizon, before), strict=True):
             spent[i] += each.found.spent
-            if not each.failed and (not each.found.unfinished or each.cost < best[i].cost):
-                best[i] = each
+            best[i] = best[i].ended(each)
     return [
         replace(best[i].plan, solve_time=float(spent[i]), guesses=len(costs[i]), agreeing=agreeing(costs[i]))
         for i in range(len(asked))
     ]
 
 
-def _solve(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | None = None) -> list[Best]:
+def _solve(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | None = None) -> list[Tried]:
     """Return what comes of each of `jobs`; see `one_by_one`."""
     found = one_by_one(jobs, horizon, before) if jobs else []
-    plans = plans_of([job.asked for job in jobs], found, horizon)
-    return [Best(not plan, each.cost, plan, each) for plan, each in zip(plans, found, strict=True)]
+    return [Tried.of(job.asked, each, horizon) for job, each in zip(jobs, found, strict=True)]
 
 
 def coarsened(plan: Plan, many: int) -> tuple[Plan, Request]:
@@ -274,7 +259,7 @@ def coarsened(plan: Plan, many: int) -> tuple[Plan, Request]:
     commands = commands.reshape(stages, many, n).mean(axis=1)
     horizon, job = stages * many * plan.stage / asked.units.time, Job(asked, plan.guess)
     found = finished(job, horizon, improved(job, horizon, (states, commands), math.inf), math.inf)
-    coarse = plans_of([asked], [found], horizon)[0]
+    coarse = plan_of(asked, found, horizon)
     if not coarse:
         raise InputError("plan", f"one that can be flown in {stages} stages", coarse.reason)
     return coarse, asked

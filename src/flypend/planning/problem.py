@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
@@ -17,11 +17,9 @@ from flypend.laws.references import check_reference, sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, angle, begins_touching, own_function
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.inequalities import END, Structure
 from flypend.planning.window import along, through
-
-Array = NDArray[np.float64]
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
@@ -95,8 +93,7 @@ class Request:
     @property
     def waits(self) -> bool:
         """Whether it can stay as it is at the end: in hover, with the rod upright or hanging."""
-        rates = np.concatenate([self.end.x_dot, self.end.omega, self.end.y_dot, self.end.z[:2], self.end.y[:2]])
-        return not np.any(rates) and bool(self.end.z[2] > 0)
+        return _still(self.end)
 
     @property
     def rest(self) -> Array:
@@ -116,12 +113,7 @@ def request(
 ) -> Request:
     """Check the arguments of `planning.plan`, and turn them into the machine's units. Raises InputError.
 
-    Parameters
-    ----------
-    vehicle, start, objective, target, rotors
-        As in `plan`.
-    kept : Constraints, optional
-        What the flight keeps, by default the limits of the machine alone.
+    `kept` is what the flight keeps, by default the limits of the machine alone.
     """
     kept = kept or Constraints()
     walls, speed, lean = kept.walls, kept.speed, kept.lean
@@ -135,7 +127,7 @@ def request(
     if n * high <= vehicle.weight:
         raise InputError("vehicle", f"rotors that lift {vehicle.weight:.3g} N", f"{n * high:.3g} N at most")
     weights, end = weights_of(objective), _end(target)
-    goal = end.x
+    goal, ends = end.x, (start, end)
     per_command = weights["effort"] / STAGES_PER_UNIT / n
     numbers = [weights["excursion"], per_command, low / units.force, high / units.force, _yaw(vehicle, units)]
     other = _other_end(end, units)
@@ -147,15 +139,16 @@ def request(
         _check_inside(walls, vehicle, goal, end.y, "target")
         numbers += [vehicle.reach / units.length, *np.clip((walls - goal) / units.length, -FAR, FAR).ravel()]
     if speed is not None:
-        numbers.append(_speed(speed, start, end) * units.time / units.length)
+        _check_below("speed", speed, [float(norm(state.x_dot)) for state in ends], "{:.3g} m/s".format)
+        numbers.append(speed * units.time / units.length)
     if lean is not None:
-        lowest = np.cos(_lean(lean, start, end))
+        _check_below("lean", lean, [float(np.arccos(np.clip(state.y[2], -1, 1))) for state in ends], angle)
+        lowest = np.cos(lean)
         numbers.append(lowest + min(TIGHTER, (float(start.y[2]) - lowest) / 2))
     forces = _forces(rotors, low, high, n)
-    keep, cost = _own(kept, objective, (start, forces), (end, np.full(n, units.force)))
+    keep, cost = _own(kept, objective, {"start": (start, forces), "target": (end, np.full(n, units.force))}, n)
     apart, windows, points = kept.clearance or 0.0, kept.windows, kept.points
-    ends = (start, end)
-    route = (start, *(State(x=point, y=E3) for point in points), ends[1])
+    route = (start, *(State(x=point, y=E3) for point in points), end)
     gates = [through(each, vehicle, route, goal, apart) for each in windows]
     numbers += [number for gate in (*gates, *along(points, vehicle, ends, goal)) for number in gate]
     mounted = None if vehicle.mount == "gimbal" else vehicle
@@ -191,24 +184,20 @@ def _check_inside(walls: Any, vehicle: Vehicle, x: Any, y: Any, where: str) -> N
         raise InputError(field, f"room for pivot and rod at the {where}, from corner to corner", walls.tolist())
 
 
-def _own(kept: Constraints, objective: Any, start: tuple[State, Array], end: tuple[State, Array]) -> tuple[str, str]:
-    """Return the functions of one's own, `keep` and `cost`, as CasADi writes them. Raises InputError."""
-    texts, rotors = [], len(start[1])
+def _own(kept: Constraints, objective: Any, ends: Mapping[str, tuple[State, Array]], rotors: int) -> list[str]:
+    """Return the functions of one's own, keep and cost, as CasADi writes them, "" for none.
+
+    Raises InputError if the objective is a cost that is not given, or keep is not positive at the `ends`.
+    """
     if objective == "cost" and kept.cost is None:
         raise InputError("cost", "the cost that is the objective", "nothing")
-    if kept.keep is not None:
-        for where, (state, forces) in {"start": start, "target": end}.items():
-            _check_kept(own_function(kept.keep, rotors, "keep"), state, where, forces)
-    for name, own in (("keep", kept.keep), ("cost", kept.cost)):
-        texts.append("" if own is None else str(own_function(own, rotors, name).serialize()))
-    return texts[0], texts[1]
-
-
-def _check_kept(function: Any, state: State, where: str, forces: Any) -> None:
-    """Raise InputError unless the `function` of `constraints.own_function` is positive at a state."""
-    least = float(np.min(np.array(function(state.packed(), forces))))
-    if not least > 0:
-        raise InputError("keep", f"values above 0 at the {where}", f"{least:.3g}")
+    keep, cost = (own and own_function(own, rotors, name) for name, own in (("keep", kept.keep), ("cost", kept.cost)))
+    if keep:
+        for where, (state, forces) in ends.items():
+            least = float(np.min(np.array(keep(state.packed(), forces))))
+            if not least > 0:
+                raise InputError("keep", f"values above 0 at the {where}", f"{least:.3g}")
+    return ["" if own is None else str(own.serialize()) for own in (keep, cost)]
 
 
 def _end(target: Any) -> State:
@@ -225,23 +214,20 @@ def _other_end(end: State, units: Units) -> list[float]:
     inverted = State(x=end.x, R=end.R, y=E3)
     if np.array_equal(inverted.packed(), end.packed()) and end.z[2] == 1:
         return []
-    still = not np.any(np.concatenate([end.x_dot, end.omega, end.y_dot, end.z[:2], end.y[:2]])) and end.z[2] > 0
     rates = end.x_dot * units.time / units.length, end.z, end.omega * units.time, end.y, end.y_dot * units.time
-    return [*np.concatenate(rates), float(still)]
+    return [*np.concatenate(rates), float(_still(end))]
 
 
-def _speed(speed: float, start: State, end: State) -> float:
-    for state, where in ((start, "start"), (end, "target")):
-        if (begin := float(norm(state.x_dot))) >= speed:
-            raise InputError("speed", f"more than the {begin:.3g} m/s of the {where}", f"{speed:g}")
-    return speed
+def _still(end: State) -> bool:
+    """Whether hover can stay in the state `end`, with the rod upright or hanging."""
+    return not np.any(np.concatenate([end.x_dot, end.omega, end.y_dot, end.z[:2], end.y[:2]])) and bool(end.z[2] > 0)
 
 
-def _lean(lean: float, start: State, end: State) -> float:
-    for state, where in ((start, "start"), (end, "target")):
-        if (begin := float(np.arccos(np.clip(state.y[2], -1, 1)))) >= lean:
-            raise InputError("lean", f"more than the {angle(begin)} of the {where}", angle(lean))
-    return lean
+def _check_below(name: str, limit: float, values: Sequence[float], told: Callable[[float], str]) -> None:
+    """Raise InputError unless the limit `name` is above the `values` at start and target; `told` writes them."""
+    for value, where in zip(values, ("start", "target"), strict=True):
+        if value >= limit:
+            raise InputError(name, f"more than the {told(value)} of the {where}", told(limit))
 
 
 def _forces(rotors: Any, low: float, high: float, n: int) -> Any:

@@ -12,17 +12,15 @@ import math
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Units
-from flypend.planning.feedback import AS_MODELLED, Feedback, Follower, of_deviation, regulator
+from flypend.planning.dynamics import Array, Units
+from flypend.planning.feedback import AS_MODELLED, Feedback, Follower, regulator
 from flypend.planning.inequalities import SHARED
 from flypend.planning.problem import Request
 from flypend.planning.result import Plan
-from flypend.planning.solver import Problem, Settings, Solver, one_lane, programs
-from flypend.plants.lag import step_timing
+from flypend.planning.solver import Problem, Settings, Solver, one_lane, programs_of
 
 SETTINGS = Settings(barrier=3e-5, shrinks=(0.4, 0.375), most_damping=1.0, inside=0.005, margin=(0.02, 1e-4))
 SUNK = 0.05  # of the weight of the excursion, where the flight has been farther out already
@@ -43,8 +41,6 @@ SETTLED = (0.15, 0.15, 0.2, 0.5, 0.1, 0.2)
 FALLING, AWAY = 0.35, 2.0
 MOVED = [*range(6), *range(12, 18)]  # of a deviation: pivot, rod and their rates
 ATTITUDE, ROD, AXIS = slice(6, 15), slice(18, 21), [8, 11, 14]  # of a packed state
-
-Array = NDArray[np.float64]
 
 
 def in_weights(forces: Array, acceleration: Array, vehicle: Vehicle) -> Array:
@@ -77,16 +73,9 @@ def hover_under(outside: Array, m: float, rotors: int) -> Array:
 
 
 def hovers(here: Array, level: tuple[Array, Array], units: Units) -> bool:
-    """Whether a state is so near hover that the law keeps it there.
+    """Whether the state `here` (24,), relative to the reference, is so near hover that the law keeps it there.
 
-    Parameters
-    ----------
-    here : (24,)
-        The state relative to the reference.
-    level : (3,), (3,)
-        Rod and thrust axis in hover.
-    units : Units
-        Units of the vehicle.
+    `level` are the directions of rod and thrust axis in hover, (3,) each, and `units` those of the vehicle.
     """
     own, (y, z) = here / units.of_state, level
     rod, axis = own[ROD], own[AXIS]
@@ -106,37 +95,17 @@ def falls(here: Array, level: tuple[Array, Array], units: Units) -> bool:
 
 
 class RealTime:
-    """What is left of a plan, in own units about the target.
+    """What is left of a plan for what was `asked`, in own units about the target.
 
-    Parameters
-    ----------
-    asked : Request
-        What was planned.
-    states : (stages + 1, 24 + n)
-        Planned states and rotor forces.
-    commands : (stages, n)
-        Planned commands.
-    stage : float
-        Duration of a stage.
-    planned : int
-        Stage at which the flight is to hover. The horizon ends there, or `least` stages ahead, whichever is later.
-    least : int
-        Least number of stages of a horizon, at least `stagewise.WIDTH`.
-
-    Attributes
-    ----------
-    states, commands
-        As above; they are the best known.
+    `states` (stages + 1, 24 + n), with rotor forces, and `commands` (stages, n), each for a `stage`, are those of the
+    plan, and later the best known. At stage `planned` the flight is to hover: the horizon ends there, or `least`
+    stages ahead, which are at least `stagewise.WIDTH`, whichever is later.
     """
 
     def __init__(self, asked: Request, states: Array, commands: Array, stage: float, planned: int, least: int) -> None:
-        vehicle, n = asked.vehicle, asked.rotors
-        timing = step_timing(vehicle.rotor_lag / asked.units.time, stage)
-        self._numbers = asked.units.numbers(vehicle)
-        known = timing, self._numbers, asked.numbers
-        problem = Problem(len(commands), *(one_lane(np.array(numbers)) for numbers in known))
-        compiled = programs(n, asked.structure, lanes=False)
-        self._solver = Solver(compiled, problem, one_lane(states), one_lane(commands), SETTINGS)
+        vehicle, problem = asked.vehicle, Problem.of([asked], len(commands), stage)
+        self._numbers = problem.vehicle[:, 0].copy()
+        self._solver = Solver(programs_of(asked), problem, one_lane(states), one_lane(commands), SETTINGS)
         self.states, self.commands = self._solver.states[..., 0], self._solver.commands[..., 0]
         self._planned, self._least, self._of_excursion = planned, least, float(asked.numbers[SHARED])
         self._m, self._scale, self._asked = vehicle.m / (vehicle.M + vehicle.m), 1.0, asked
@@ -178,27 +147,10 @@ class RealTime:
 
 
 class PlanInFlight:
-    """A `plan` in flight since `begin` (s), relative to the target.
+    """A `plan` for what was `asked` in flight since `begin` (s), relative to the target.
 
-    Parameters
-    ----------
-    plan : Plan
-        The plan.
-    asked : Request
-        What it answers.
-    begin : float
-        When it begins, s.
-    computing : float, optional
-        Time that an iteration of OF_STAGES stages takes, s; None to measure it.
-    vehicle : Vehicle
-        The vehicle.
-    scales : (2,)
-        Its thrust and moment over those of its model, as the plan takes them.
-
-    Attributes
-    ----------
-    spent : list of float
-        Processor time of every iteration here, s.
+    An iteration of OF_STAGES stages takes `computing` (s); None to measure it. `scales` (2,) are thrust and moment of
+    the `vehicle` over those of its model, as the plan takes them. `spent` is the processor time of each iteration, s.
     """
 
     def __init__(
@@ -208,7 +160,7 @@ class PlanInFlight:
         feedback.states[:, :3] -= plan.target
         self._follower = Follower(feedback, vehicle)
         self._follower.scales = self._planned_for = scales
-        self._weight, self._of_deviation = vehicle.weight, of_deviation(asked.units, asked.rotors)
+        self._weight, self._of_deviation = vehicle.weight, asked.units.deviations(asked.rotors)
         self._own, self._begin, self._stage = asked.units.states(asked.rotors), begin, plan.stage
         self._length = asked.units.length
         states, commands = feedback.states / self._own, feedback.commands[:-1] / asked.units.force
@@ -225,18 +177,10 @@ class PlanInFlight:
         return t - self._begin > self._stage * self._count
 
     def command(self, t: float, here: Array, rotors: Array, outside: Array, scales: Array) -> tuple[Array, str]:
-        """Return the command (n,), N, and why the plan is lost; "" if it is not.
+        """Return the command (n,), N, that acts at `t` (s), and why the plan is lost; "" if it is not.
 
-        Parameters
-        ----------
-        t : float
-            When the command acts, s.
-        here, rotors : (24,), (n,)
-            State and rotor forces then.
-        outside : (6,)
-            Forces from outside on vehicle and bob, weights.
-        scales : (2,)
-            Thrust and moment over those of the model.
+        `here` (24,) and `rotors` (n,), N, are state and rotor forces then, `outside` (6,) the forces from outside on
+        vehicle and bob, weights, and `scales` (2,) thrust and moment over those of the model.
         """
         self._been = max(self._been, float(np.linalg.norm(here[:3])) / self._length)
         self._take(t)
@@ -304,8 +248,5 @@ class PlanInFlight:
 
 def _with_tail(feedback: Feedback) -> Feedback:
     """Return `feedback` with TAIL stages of hover, in arrays of its own."""
-
-    def longer(values: Array) -> Array:
-        return np.concatenate([values, np.repeat(values[-1:], TAIL, axis=0)])
-
-    return Feedback(feedback.stage, longer(feedback.states), longer(feedback.commands), longer(feedback.gains))
+    parts = feedback.states, feedback.commands, feedback.gains
+    return Feedback(feedback.stage, *(np.concatenate([part, np.repeat(part[-1:], TAIL, axis=0)]) for part in parts))

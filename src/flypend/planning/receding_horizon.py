@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple, Unpack
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.compile.llvm.stagewise import WIDTH
@@ -25,30 +25,30 @@ from flypend.errors import InputError
 from flypend.geometry import E3, norm
 from flypend.laws import Computer, Controller, Law
 from flypend.laws.references import Reference, hover
+from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.fallback import CHARGES, LONGEST, Fallback, Schedule
 from flypend.planning.inequalities import WALLS
 from flypend.planning.model_error import ModelError
+from flypend.planning.multistart import SOFT_LAST, Found, work
 from flypend.planning.planner import plan_within
 from flypend.planning.problem import STAGES_PER_UNIT, Request, request
 from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, in_weights, upright
 from flypend.planning.result import Plan
-from flypend.planning.search import SOFT_LAST, Found, stages_of, work
+from flypend.planning.search import plan_of, stages_of
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
-from flypend.planning.verdict import plans_of
 from flypend.plants.loop import Loop
 
-Array = NDArray[np.float64]
 Level = tuple[Array, Array]  # rod and thrust axis in hover
 
 COMPUTING = 0.001  # s
 # Horizon, √(l/g), and iterations of the first attempt, and of those after failures. After 22 iterations all of 160
 # random starts have a plan, which goes 4 % farther than the best on average, and 2 % with eight guesses to the end.
 ATTEMPTS = ((12.5, 22), (12.5, 40), (20.0, 60), (32.0, 60), (12.5, 40))
-ROUNDS = {4: 4, 8: 2}  # see `search.Race`
+ROUNDS = {4: 4, 8: 2}  # see `multistart.Race`
 # An iteration of a guess takes so many times what is charged for a real-time iteration, which has to be there in time.
 OF_GUESS = 0.7
 LATE = 2.0  # after a plan that was late, the next is given so many times as long
@@ -136,7 +136,7 @@ def nmpc(
         name="nmpc",
         function=rotors_only("nmpc"),
         reference=followed,
-        flight_computer=receding,
+        flight_computer=partial(Pilot, receding),
         because="it solves a problem in every stage",
     )
 
@@ -154,7 +154,7 @@ def _check_in_flight(kept: Constraints, reference: Reference) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Receding:
-    """What the pilots of a controller have in common; called, it makes one. See `nmpc` for the fields.
+    """What the pilots of a controller have in common. See `nmpc` for the fields.
 
     `law` is what flies otherwise, `latency` what the board predicts over for plans, and `computing` None if measured.
     """
@@ -165,21 +165,10 @@ class Receding:
     computing: float | None
     constraints: Constraints
 
-    def __call__(self, loop: Loop, rotors: ArrayLike) -> Pilot:
-        """Return the flight computer for a `loop` and initial `rotors` (n,), N. Raises InputError; see `check`."""
-        if self.constraints.given:
-            self.check(loop.vehicle)
-        return Pilot(self, loop, rotors)
-
     def check(self, vehicle: Vehicle) -> None:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
         there = _moving(self.reference)(0.0)[:3]
         request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
-
-    @property
-    def limited(self) -> bool:
-        """Whether there are constraints other than the clearance."""
-        return bool(self.constraints.given.keys() - {"clearance"})
 
     @property
     def mount(self) -> Constraints:
@@ -209,26 +198,15 @@ class Coming(NamedTuple):
 
 
 class Pilot(Boards):
-    """The flight computer of `nmpc`, for one flight.
+    """The flight computer of `nmpc`, for one flight: `receding` is what it has in common with others; see `Boards`.
 
-    Parameters
-    ----------
-    receding : Receding
-        What it has in common with others.
-    loop, rotors : Loop, (n,)
-        As for `Boards`.
-
-    Attributes
-    ----------
-    changes : list of (float, str, str)
-        When it changed hands, s, to which mode, and why.
-    plans : list of Plan
-        The plans that were flown.
-    spent : list of float
-        Processor time of each real-time iteration, s.
+    `changes` say when it changed hands, s, to which mode, and why; `plans` are those that were flown, and `spent` is
+    the processor time of each real-time iteration, s. Raises InputError as `Receding.check` does.
     """
 
     def __init__(self, receding: Receding, loop: Loop, rotors: ArrayLike) -> None:
+        if receding.constraints.given:
+            receding.check(loop.vehicle)
         super().__init__(loop, receding.law, receding.latency, rotors)
         self._common, self._vehicle = receding, loop.vehicle
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
@@ -334,11 +312,12 @@ class Pilot(Boards):
         if alone > horizon * self._units.time:
             return Coming(None, None, "a plan would take longer than its flight", t, t, None, self._error.scales)
         here, begun, measured = np.append(state, rotors), time.process_time(), self._common.computing is None
+        self._fallback.scales = self._error.scales
         if self._failures or alone > LONGEST * self._units.time:
             lead = self._fallback.until(t, here, alone)
         else:
             first, *legs = (each * charge for charge in CHARGES)
-            legs = [] if self._common.limited else legs
+            legs = [] if self._common.constraints.given.keys() - {"clearance"} else legs
             try:
                 lead = self._fallback.sketch(t, here, horizon, first, legs, alone, self._ask, measured=measured)
             except InputError:
@@ -380,7 +359,7 @@ class Pilot(Boards):
         if begun is None:
             found = plan_within(asked, horizon, iterations, ROUNDS, self._common.mount)
         else:
-            (found,) = plans_of([asked], [begun], stages_of(horizon)[1] * len(begun.commands))
+            found = plan_of(asked, begun, stages_of(horizon)[1] * len(begun.commands))
         its = asked.structure
         if its.soft:
             asked.numbers[-2] = SOFT_LAST if its.mounted or its.gates else WALL
@@ -394,6 +373,4 @@ def _moving(reference: Reference) -> Any:
     """Return the function from time (s) to position, velocity and acceleration (9,) of `reference`."""
     t = ca.SX.sym("t")
     position = ca.densify(reference(t))
-    velocity = ca.jacobian(position, t)
-    moved = ca.vertcat(position, velocity, ca.jacobian(velocity, t))
-    return as_numpy(ca.Function("where", [t], [ca.densify(moved)]))
+    return as_numpy(ca.Function("where", [t], [ca.densify(ca.vertcat(position, *derivatives(position, t, 2)))]))

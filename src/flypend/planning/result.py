@@ -16,6 +16,7 @@ from flypend import errors
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
+from flypend.flight.labelled import UNITS, column_names
 from flypend.flight.metrics import wilson
 from flypend.flight.outcome import Outcome
 from flypend.flight.saved import write
@@ -23,21 +24,15 @@ from flypend.flight.trajectory import Trajectory
 from flypend.geometry import E3, norm
 from flypend.laws.references import Reference, hover, sample
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE, split
+from flypend.model.state import SHAPES, SIZE, split
 from flypend.planning import files
+from flypend.planning.dynamics import Array
 from flypend.planning.files import Status
 from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, hold, step_timing
 
-Array = NDArray[np.float64]
-
 INDEPENDENT_STEP = 1e-3  # s
-# Name, unit and shape of the columns of a table before those of the rotors, in the order of `State.packed`.
-COLUMNS = (
-    ("t", "s", ()), ("x", "m", (3,)), ("x_dot", "m/s", (3,)), ("R", "1", (3, 3)), ("omega", "rad/s", (3,)),
-    ("y", "1", (3,)), ("y_dot", "1/s", (3,)),
-)  # fmt: skip
 NEAR_HOVER = 0.5  # m/s, 1/s and 1, which no plan to hover is off at its end
 
 
@@ -59,7 +54,7 @@ class Plan:
     windows : tuple of Window
         What it flies through.
     t : (n,)
-        Times, s: `dense` in each stage.
+        Times, s: as many in each stage, at equal distances.
     packed : (n, 24)
         States at these times, in the order of `State.packed`.
     rotor_forces : (n, k)
@@ -199,8 +194,9 @@ class Plan:
         per_stage = (len(self.t) - 1) // len(self.commands)
         commands = self.commands[np.minimum(np.arange(len(self.t)) // per_stage, len(self.commands) - 1)]
         parts = np.column_stack([self.t, self.packed, self.rotor_forces, commands])
-        names = [f"{name} [{unit}]" for name, unit, shape in COLUMNS for name in _numbered(name, shape)]
-        names += [f"{name}_{i + 1} [N]" for name in ("rotor_force", "command") for i in range(self.commands.shape[1])]
+        shapes = {"t": (), **SHAPES, "rotor_forces": self.commands.shape[1:], "command": self.commands.shape[1:]}
+        units = UNITS | {"command": "N"}
+        names = [f"{column} [{units[name]}]" for name in shapes for column in column_names(name, shapes[name])]
         with whole_file(path, (".csv",)) as target:
             np.savetxt(target, parts, fmt="%.9g", delimiter=",", header=",".join(names), comments="")
 
@@ -288,10 +284,6 @@ class PlanEnsemble:
         values = getattr(self, errors.one_of("name", name, ("excursion", "duration", "solve_time")))
         values = values[np.isfinite(values)]
         return float(np.percentile(values, q)) if len(values) else float("nan")
-
-
-def _numbered(name: str, shape: tuple[int, ...]) -> list[str]:
-    return ["_".join([name, "".join(str(i + 1) for i in place)]) if shape else name for place in np.ndindex(shape)]
 
 
 def _independent_step(vehicle: Vehicle) -> Any:

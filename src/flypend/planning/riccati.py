@@ -26,59 +26,28 @@ class Layout:
     the rows [q r] and [q_e 0], R, c, g, and what of Q is not zero; of a cost to go the rows of P, p and p_e, and c, g,
     v. Where a row has more than n numbers that mean something, the rest is of no account. With a `block` of 1 only what
     is not zero of F is there, and the upper triangle of P, both column by column.
-
-    Parameters
-    ----------
-    A, B, Q : Sparsity
-        Patterns (n, n), (n, m) and (n, n).
-    block : int
-        Numbers in a block.
     """
 
-    A: ca.Sparsity
-    B: ca.Sparsity
-    Q: ca.Sparsity
+    A: ca.Sparsity  # (n, n)
+    B: ca.Sparsity  # (n, m)
+    Q: ca.Sparsity  # (n, n)
     block: int = 1
 
-    @property
-    def n(self) -> int:
-        """Number of coordinates of a state."""
-        return int(self.A.size1())
-
-    @property
-    def m(self) -> int:
-        """Length of a command."""
-        return int(self.B.size2())
+    n = property(lambda self: int(self.A.size1()), doc="Number of coordinates of a state.")
+    m = property(lambda self: int(self.B.size2()), doc="Length of a command.")
+    of_slopes = property(lambda self: self.F.nnz() if self.block == 1 else self.n * self.width, doc="Length of F.")
+    of_stage = property(
+        lambda self: self._padded(2 * self.width + self.m + 2 + self.Q.nnz()), doc="Length of the cost of a stage."
+    )
+    _of_matrix = property(lambda self: self.n * (self.n + 1) // 2 if self.block == 1 else self.n * self.width)  # P
+    of_shared = property(lambda self: self._of_matrix + 2 * self.width, doc="Place of c, g and v in a cost to go.")
+    of_to_go = property(lambda self: self._padded(self.of_shared + 3), doc="Length of a cost to go.")
+    of_gains = property(lambda self: self.m * (self.n + 2), doc="Length of the gains of a stage: rows of K, k and k_e.")
 
     @property
     def width(self) -> int:
         """Length of a row."""
         return self._padded(self.n + self.m)
-
-    @property
-    def of_slopes(self) -> int:
-        """Length of F."""
-        return int(self.F.nnz()) if self.block == 1 else self.n * self.width
-
-    @property
-    def of_stage(self) -> int:
-        """Length of the cost of a stage."""
-        return self._padded(2 * self.width + self.m + 2 + self.Q.nnz())
-
-    @property
-    def of_shared(self) -> int:
-        """Place of c, g and v in a cost to go."""
-        return self._of_P + 2 * self.width
-
-    @property
-    def of_to_go(self) -> int:
-        """Length of a cost to go."""
-        return self._padded(self.of_shared + 3)
-
-    @property
-    def of_gains(self) -> int:
-        """Length of the gains of a stage: rows of K, k and k_e."""
-        return self.m * (self.n + 2)
 
     @property
     def F(self) -> ca.Sparsity:
@@ -109,7 +78,7 @@ class Layout:
 
     def to_go_in(self, memory: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
         """Return P (n, n), p and p_e (n, 1) of the cost to go that lies in `memory`."""
-        n, w, first = self.n, self.width, self._of_P
+        n, w, first = self.n, self.width, self._of_matrix
         if self.block == 1:
             upper = ca.SX(ca.Sparsity.upper(n), memory[:first])
             P = upper + ca.triu(upper, False).T
@@ -121,10 +90,6 @@ class Layout:
         """Return the place in a cost to go of entry (i, j) of P, or of (j, i), which is the same."""
         low, high = min(i, j), max(i, j)
         return high * (high + 1) // 2 + low if self.block == 1 else low * self.width + high
-
-    @property
-    def _of_P(self) -> int:
-        return self.n * (self.n + 1) // 2 if self.block == 1 else self.n * self.width
 
     def _padded(self, length: int) -> int:
         return -(-length // self.block) * self.block

@@ -9,23 +9,22 @@ from functools import lru_cache, partial
 from typing import Any, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.board.computer import FlightComputer, SteppedBoard
 from flypend.errors import InputError
+from flypend.geometry import Numbers
 from flypend.laws import BoundLaw, Computer, Controller, Law, inverted
 from flypend.laws.references import Reference, hover
 from flypend.model import State, Vehicle, Wrench
 from flypend.planning.constraints import Constraints, Keywords, gather
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.feedback import Feedback, Follower, regulator
 from flypend.planning.planner import plan
 from flypend.planning.problem import weights_of
 from flypend.planning.result import Plan
 from flypend.plants.loop import Loop
-
-Array = NDArray[np.float64]
 
 PATIENT = 600.0  # s: how busy the machine is must not decide how a flight goes
 # The plan is left when the rod is this far from where it should be, rad, or the pivot, rod lengths.
@@ -38,21 +37,8 @@ class Boards(ABC):
     One predicts for the plan, the other flies the law, which so takes over as if it had always flown. Both find their
     delay if the law's does, and use the same estimator.
 
-    Parameters
-    ----------
-    loop : Loop
-        The closed loop that is flown.
-    law : Law
-        What flies where no plan does.
-    latency : float
-        Delay that the plan's board begins with, s.
-    rotors : (n,)
-        Initial rotor forces, N.
-
-    Attributes
-    ----------
-    off : (3,)
-        What is added to the position, m, that the law is shown.
+    The closed `loop` is flown from initial `rotors` (n,), N, by `law` where no plan does; the plan's board begins with
+    a delay of `latency` (s). To the position that the law is shown, `off` (3,), m, is added.
     """
 
     def __init__(self, loop: Loop, law: Law, latency: float, rotors: ArrayLike) -> None:
@@ -69,15 +55,14 @@ class Boards(ABC):
         self._for_plan = SteppedBoard(by_plan, self._rotors, estimate, self._steer)
         self._for_law = SteppedBoard(self._by_law, self._rotors, estimate, self._or_law)
 
-    def command(self, t: float, measured: Any) -> Array:
+    def command(self, t: float, measured: Any) -> Numbers:
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
         self._measured = t, measured
         command = self._for_plan.ask(t, measured)
         by_law = self._given is None
         flies, other = (self._for_law, self._for_plan) if by_law else (self._for_plan, self._for_law)
         other.take_trim(flies)  # of what is sent there is one trim
-        found: Array = flies.trim(command)
-        return found
+        return flies.trim(command)
 
     @abstractmethod
     def planned(self, t: float, state: Array, rotors: Array, outside: Array) -> Array | None:
@@ -86,19 +71,17 @@ class Boards(ABC):
         `state` (24,), `rotors` (n,), N, and `outside` (8,), `board.command.OUTSIDE`, are those predicted for then.
         """
 
-    def _steer(self, *predicted: Any) -> Array:
+    def _steer(self, *predicted: Any) -> Numbers:
         self._given = self.planned(*predicted)
-        found: Array = self._for_law.ask(*self._measured)
-        return found
+        return self._for_law.ask(*self._measured)
 
-    def _or_law(self, t: float, state: Array, rotors: Array, outside: Array) -> Array:
+    def _or_law(self, t: float, state: Array, rotors: Array, outside: Array) -> Numbers:
         """Return the rotor forces of the plan, N, or those of the law where there is no plan."""
         if self._given is not None:
             return self._given
         shown = state.copy()
         shown[:3] += self.off
-        found: Array = self._for_law.law(t, shown, rotors, outside)
-        return found
+        return self._for_law.law(t, shown, rotors, outside)
 
 
 @lru_cache(maxsize=16)
@@ -161,21 +144,9 @@ def rotors_only(name: str) -> Callable[[float, State], Wrench]:
 
 
 class Tracker(Boards):
-    """The flight computer of a tracked plan.
+    """The flight computer of a tracked plan for `vehicle`, with its gains in `feedback`; the rest as for `Boards`.
 
-    Parameters
-    ----------
-    feedback : Feedback
-        The plan with its gains.
-    vehicle : Vehicle
-        The vehicle of the plan.
-    law, loop, rotors : Law, Loop, (n,)
-        As for `Boards`; the law takes over once the flight is too far from the plan.
-
-    Attributes
-    ----------
-    following : bool
-        Whether the plan is still followed.
+    The law takes over once the flight is too far from the plan, which it is not `following` then.
     """
 
     def __init__(self, feedback: Feedback, vehicle: Vehicle, law: Law, loop: Loop, rotors: ArrayLike) -> None:
@@ -245,18 +216,9 @@ def plan_and_track(
 
 
 class Autopilot:
-    """The flight computer that plans with `asked` (vehicle, start) at its first command, and then tracks.
+    """The flight computer that plans with `asked`, (vehicle, start, rotors=) → plan, at its first command, and tracks.
 
-    Parameters
-    ----------
-    asked : callable
-        (vehicle, start, rotors=) → plan.
-    law : Law
-        What flies without a plan.
-    loop : Loop
-        The closed loop that is flown.
-    rotors : (n,)
-        Initial rotor forces, N.
+    Without a plan `law` flies the closed `loop`, from initial `rotors` (n,), N.
     """
 
     def __init__(self, asked: Any, law: Law, loop: Loop, rotors: Any) -> None:

@@ -19,20 +19,19 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.planning.dynamics import Units
+from flypend.planning.dynamics import Array, Units
 
 RIM = 24  # corners of the polygons that stand for discs
 STEEP = 1e-3  # least sine between the normal and what is up in the window
 TINY = 1e-12
 
-Array = NDArray[np.float64]
 # Centre, axes; half widths, slopes and half depth of the neck; reach, and radius and height of the body.
 NUMBERS = 3 + 9 + 2 + 2 + 1 + 3
 ROWS = 10
@@ -167,14 +166,8 @@ def _edges(states: State, vehicle: Vehicle) -> tuple[Array, Array, Array]:
 def passing(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
     """Return g (ROWS, 1), of which all are ≥ 0 in the funnel of a window; in rod lengths, as distances near its edge.
 
-    Parameters
-    ----------
-    state : SX
-        State (24 + n, 1); of the rod both ends and the worst point between count, of the body those farthest out.
-    about : SX
-        The state about which derivatives are taken: there the place on the rod is found that counts.
-    numbers : SX
-        Of the window, (NUMBERS, 1); see `through`.
+    Of the rod in a `state` (24 + n, 1) both ends and the worst point between count, which is found in the state `about`
+    which derivatives are taken, of the body the points farthest out. For the `numbers` (NUMBERS, 1) see `through`.
     """
     half, slope, depth = numbers[12:14], numbers[14:16], numbers[16]
 
@@ -214,21 +207,11 @@ def _worst(first: ca.SX, run: ca.SX, axis: int, slope: ca.SX) -> ca.SX:
 
 
 def through(window: Window, vehicle: Vehicle, route: Sequence[State], target: Array, clearance: float) -> Array:
-    """Return the numbers (NUMBERS,) of a `window` for `passing`, in own units about the `target`.
+    """Return the numbers (NUMBERS,) of a `window` for `passing`, in own units about the `target` (3,), m.
 
-    Parameters
-    ----------
-    window, vehicle
-        The window, and the vehicle, of which the funnel keeps `clearance` (m) from the frame.
-    route : sequence of State
-        Start, waypoints and end, which are to be in the funnel, start and end on different sides of the wall.
-    target : (3,)
-        The target, m.
-
-    Raises
-    ------
-    InputError
-        If the opening is too small for the rod alone, start and end are on one side, or something is in the wall.
+    The funnel keeps `vehicle` a `clearance` (m) from the frame. The `route`, which is start, waypoints and end, is to
+    be in it, start and end on different sides of the wall. Raises InputError if the opening is too small for the rod
+    alone, start and end are on one side, or something is in the wall.
     """
     radius, height, margin = body_of(vehicle)
     near = margin + clearance + INSET * vehicle.l

@@ -19,10 +19,10 @@ import casadi as ca
 from flypend import errors
 from flypend.geometry import E3, Scalar, Vector, apply, cross, dot, norm, scale
 from flypend.laws.almost_global_bounds import theorem_b
-from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
+from flypend.laws.almost_global_gains import GAINS, axis_step, demand_stays_upward, rod_step
 from flypend.laws.almost_global_position import damper, spring
 from flypend.laws.axis import axis_moment, axis_rate
-from flypend.laws.bound import BoundLaw, Control, Guard
+from flypend.laws.bound import BoundLaw, Control, Guard, computer_of
 from flypend.laws.gain import document_gains
 from flypend.laws.law import Law
 from flypend.laws.references import Path, Reference, hover

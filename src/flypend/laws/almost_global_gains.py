@@ -8,8 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from flypend.errors import InputError
-from flypend.laws.bound import Computer
-from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, table
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, check_gravity, table
 from flypend.laws.step import Step
 from flypend.model import Vehicle
 
@@ -18,8 +17,7 @@ def _scale(factor: float, length: float, time: float) -> Callable[[Vehicle], flo
     """Return `factor` in units of l^`length` √(l/g)^`time`, as a function of the vehicle."""
 
     def value(vehicle: Vehicle) -> float:
-        if vehicle.gravity == 0:
-            raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+        check_gravity(vehicle)
         return float(factor * vehicle.l**length * math.sqrt(vehicle.l / vehicle.g) ** time)
 
     return value
@@ -106,14 +104,6 @@ def rod_step(k: SimpleNamespace) -> Step:
 def axis_step(k: SimpleNamespace) -> Step:
     """Return the gains of Lemma S for the thrust axis."""
     return Step(k.axis_stiffness, k.axis_alignment, k.axis_damping, k.axis_weight, k.axis_barrier, k.axis_fade)
-
-
-COMPUTER = ("lead", "latency", "delay_reach")  # gains of the flight computer, none of the theorem's
-
-
-def computer_of(gains: Mapping[str, Any]) -> Computer:
-    """Return the flight computer settings for these `gains`."""
-    return Computer(**{name: gains[name] for name in COMPUTER})
 
 
 def demand_stays_upward(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -15,7 +15,7 @@ from flypend.geometry import Scalar
 from flypend.laws import almost_global_gains
 from flypend.laws.almost_global import OUTSIDE, almost_global_control, certify
 from flypend.laws.almost_global_bounds import theorem_d
-from flypend.laws.bound import Control
+from flypend.laws.bound import COMPUTER, Control
 from flypend.laws.gain import document_gains, table
 from flypend.laws.lag import GAINS as LAG_GAINS
 from flypend.laws.lag import through_lag
@@ -26,7 +26,7 @@ from flypend.model import State, Vehicle, Wrench
 
 GAINS = table(
     (
-        *(gain for gain in almost_global_gains.GAINS.values() if gain.name not in almost_global_gains.COMPUTER),
+        *(gain for gain in almost_global_gains.GAINS.values() if gain.name not in COMPUTER),
         *LAG_GAINS,
     )
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType, SimpleNamespace
 from typing import Any
@@ -77,6 +77,14 @@ class Computer:
             raise errors.InputError("models_lag", "true or false", repr(self.models_lag))
         errors.number("observer", self.observer, at_least=0, unit="1/s")
         errors.number("force_limit", self.force_limit, at_least=0)
+
+
+COMPUTER = tuple(entry.name for entry in fields(Computer))
+
+
+def computer_of(gains: Mapping[str, Any]) -> Computer:
+    """Return the flight computer with the settings that are among `gains`."""
+    return Computer(**{name: gains[name] for name in COMPUTER if name in gains})
 
 
 @errors.named_arguments

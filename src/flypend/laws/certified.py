@@ -20,8 +20,7 @@ from flypend.errors import InputError
 from flypend.files.whole import whole_file
 from flypend.geometry import E3, Numbers, Scalar, apply, cross, dot
 from flypend.laws.almost_global_bounds import stands
-from flypend.laws.almost_global_gains import COMPUTER
-from flypend.laws.bound import BoundLaw
+from flypend.laws.bound import COMPUTER, BoundLaw
 from flypend.laws.certificate import (
     NotProvedError,
     Polynomial,

@@ -139,6 +139,12 @@ class Tunable:
         return self.table[name].check_all(values, f"{prefix}.{name}".lstrip("."))
 
 
+def check_gravity(vehicle: Vehicle, pose: str = "is inverted") -> None:
+    """Raise InputError for a `vehicle` without gravity, for which no `pose` is one."""
+    if vehicle.gravity == 0:
+        raise errors.InputError("vehicle.gravity", f"gravity > 0, without which no pose {pose}", "0 m/s²")
+
+
 def is_number(value: object) -> bool:
     """Whether `value` is a real number; booleans do not count."""
     return isinstance(value, Real) and not isinstance(value, bool)

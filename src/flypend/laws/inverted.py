@@ -23,10 +23,10 @@ import casadi as ca
 from flypend import errors
 from flypend.geometry import E1, E3, Scalar, Vector, apply, cross, dot, norm, scale, smooth_norm, tangent_part
 from flypend.laws.axis import axis_moment
-from flypend.laws.bound import Control
+from flypend.laws.bound import Control, computer_of
 from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
 from flypend.laws.gain import document_gains
-from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer_of, go_together, scales
+from flypend.laws.inverted_gains import GAINS, angular_authority, calm, go_together, scales
 from flypend.laws.law import Law
 from flypend.laws.passage import FREE, Passage, heading, passage_of, steer
 from flypend.laws.references import Path, Reference, hover

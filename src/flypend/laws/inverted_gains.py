@@ -12,8 +12,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.laws.bound import Computer
-from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, table
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, check_gravity, table
 from flypend.model import Vehicle
 
 # Bandwidth of a loop over that of the one around it: at least this, or the law refuses to be built.
@@ -120,8 +119,7 @@ class Scales(NamedTuple):
 @lru_cache(maxsize=256)
 def scales(vehicle: Vehicle) -> Scales:
     """Return the scales of `vehicle`, from its rod, inertia, and rotor limits and lag."""
-    if vehicle.gravity == 0:
-        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+    check_gravity(vehicle)
     authority = angular_authority(vehicle)
     return Scales(
         time=np.sqrt(vehicle.l / vehicle.g),
@@ -291,9 +289,3 @@ def go_together(gains: Mapping[str, Any]) -> None:
                 "the rotor_lag of the vehicle, default rod_bandwidth rises with √(gravity / rod_length))",
                 f"{inner:.3g} rad/s",
             )
-
-
-def computer_of(gains: Mapping[str, Any]) -> Computer:
-    """Return the flight computer settings for these `gains`."""
-    names = ("lead", "latency", "delay_reach", "observer")
-    return Computer(**{name: gains[name] for name in names})

@@ -6,7 +6,6 @@ Its wrench is one that the rotors can give, so that allocation changes nothing. 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
@@ -18,9 +17,8 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, Vector, norm, smooth_norm
-from flypend.laws.bound import Computer, Control
-from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
-from flypend.laws.inverted_gains import computer_of
+from flypend.laws.bound import Computer, Control, computer_of
+from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, check_gravity, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.policy import Policy, features, load, shares
 from flypend.laws.references import Reference, hover
@@ -84,12 +82,11 @@ def learned(reference: Reference | None = None, **gains: Any) -> Law:
 
 def _computer(gains: Mapping[str, Any]) -> Computer:
     """Return the flight computer settings for these `gains`: the network was trained behind the rotors' lag."""
-    return replace(computer_of(gains), models_lag=True)
+    return computer_of({**gains, "models_lag": True})
 
 
 def _prepare(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
-    if vehicle.gravity == 0:
-        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+    check_gravity(vehicle)
     usual = ON_HUB if vehicle.mount == "hub" else SHIPPED
     network = policy(usual if gains["policy"] == USUAL else gains["policy"])
     if len(network.D) != len(vehicle.rotor_spins):

@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.errors import InputError
 from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
-from flypend.laws.gain import POSITIVE, Gain, document_gains, table
+from flypend.laws.gain import POSITIVE, Gain, check_gravity, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
 from flypend.laws.references import Path, Reference, hover
@@ -125,8 +124,7 @@ def entries(K: Numbers) -> dict[str, float]:
 
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Numbers:
     """Return K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its heading column is zero."""
-    if vehicle.gravity == 0:
-        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+    check_gravity(vehicle)
     A, B = _about_hover(vehicle)
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]

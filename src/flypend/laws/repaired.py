@@ -16,12 +16,11 @@ from types import SimpleNamespace
 import casadi as ca
 
 from flypend import errors
-from flypend.errors import InputError
 from flypend.geometry import E3, Scalar, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
 from flypend.laws.covering import outside, signals_at
-from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, document_gains, table
+from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, check_gravity, document_gains, table
 from flypend.laws.guarantee import IDEAL, Guarantee, saturate
 from flypend.laws.law import Law
 from flypend.laws.step import Step, aim, push
@@ -41,8 +40,7 @@ def stiffness(vehicle: Vehicle) -> Scalar:
 
 def _of_frequency(factor: float, power: int) -> Callable[[Vehicle], float]:
     def value(vehicle: Vehicle) -> float:
-        if vehicle.gravity == 0:
-            raise InputError("vehicle.gravity", "gravity > 0, without which no pose hangs", "0 m/s²")
+        check_gravity(vehicle, "hangs")
         return float(factor * stiffness(vehicle) ** (power / 2))
 
     return value

@@ -13,7 +13,7 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, norm
-from flypend.laws.bound import Computer, Control
+from flypend.laws.bound import Control, computer_of
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.network import Network
@@ -85,7 +85,7 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
 
     return Law(
         name=Path(str(network)).stem if from_file else "trained", e3="up", gains=GAINS, given=gains, control=control,
-        prepare=partial(_check_outputs, known.outputs), reference=followed, computer=_computer,
+        prepare=partial(_check_outputs, known.outputs), reference=followed, computer=computer_of,
     )  # fmt: skip
 
 
@@ -101,7 +101,3 @@ def _check_outputs(outputs: int, vehicle: Vehicle, gains: Mapping[str, Any]) -> 
     if outputs != wanted:
         raise InputError("network", f"{wanted} actions, for {vehicle.name}", f"{outputs}")
     return {}
-
-
-def _computer(gains: Mapping[str, Any]) -> Computer:
-    return Computer(**{name: gains[name] for name in ("lead", "latency", "delay_reach")})

@@ -41,27 +41,14 @@ OUTSIDE = Guard(
 
 
 @errors.named_arguments
-@document_gains(GAINS)
+@document_gains(
+    GAINS, "; and from `bind`, if the demand on the bob could point downward", ", with ten bounded derivatives"
+)
 def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem B about a `reference` for the pivot. V falls along every solution.
 
     Every start reaches the reference, except those with y = -d or z = -z_d, a set of measure zero on which the law is
     not defined. The law assumes that the wrench acts as commanded, without limits.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time, with ten bounded derivatives; default hover at the origin.
-        See `laws.references`.
-    **gains : float
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds; and from `bind`, if the demand on the bob could point downward.
     """
     followed = reference or hover()
     return Law(

@@ -33,29 +33,17 @@ GAINS = table(
 
 
 @errors.named_arguments
-@document_gains(GAINS)
+@document_gains(
+    GAINS,
+    "; from `bind`, if the demand on the bob could point downward, or the vehicle has no lag; and in another plant",
+    ", with eleven bounded derivatives",
+)
 def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem D about a `reference` for the pivot: `almost_global` through rotors that lag.
 
     Every start reaches the reference, whatever the initial rotor forces, except those with y = -d or z = -z_d, as
     without lag. The law assumes that all rotors have the lag of the vehicle, `rotor_lag`, and no limits, and that their
     forces are known. So it flies in `flypend.Ideal(lag=True)`.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time, with eleven bounded derivatives; default hover at the
-        origin. See `laws.references`.
-    **gains : float
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds; from `bind`, if the demand on the bob could point downward, or the
-        vehicle has no lag; and in another plant.
     """
     followed = reference or hover()
     return Law(

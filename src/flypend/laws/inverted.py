@@ -72,24 +72,9 @@ SPIN_LAG = 1.3
 
 
 @errors.named_arguments
-@document_gains(GAINS)
+@document_gains(GAINS, "; and from `bind`, if the bandwidths are not separated")
 def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
-    """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
-    **gains : float or str
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds; and from `bind`, if the bandwidths are not separated.
-    """
+    """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle."""
     followed = reference or hover()
     return Law(
         name="inverted",

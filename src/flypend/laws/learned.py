@@ -47,24 +47,9 @@ GAINS = table(
 
 
 @errors.named_arguments
-@document_gains(GAINS)
+@document_gains(GAINS, ", there is no such policy, or it is for another number of rotors")
 def learned(reference: Reference | None = None, **gains: Any) -> Law:
-    """Build the learned law.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
-    **gains : float or str
-        Any of the gains below, in the stated unit.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of range, there is no such policy, or it is for another number of rotors.
-    """
+    """Build the learned law."""
     followed = reference or hover()
 
     def control(

@@ -66,20 +66,6 @@ def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """Build the linear-quadratic regulator; its weights are the inverse squares of the largest acceptable deviations.
 
     Only their ratios matter. For the errors ξ of a state far from hover, see `errors_of`.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
-    **gains : float
-        Any of the gains below, in the stated unit.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or not positive.
     """
     followed = reference or hover()
     return Law(

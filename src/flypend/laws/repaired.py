@@ -69,18 +69,6 @@ def repaired(**gains: float) -> Law:
     The rod comes to hang from every start outside two sets of measure zero: z = -z_d, where the law is not defined, and
     the stable manifold of the saddle y = -e₃. Position is not controlled: the vehicle ends at constant velocity. The
     law assumes that the wrench acts as commanded, without limits.
-
-    Parameters
-    ----------
-    **gains : float
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds.
     """
     return Law(
         name="repaired", e3="down", gains=GAINS, given=gains, control=control_repaired, guard=OUTSIDE, theorem=theorem_a

@@ -6,8 +6,7 @@ Lyapunov function, a reference or a frame, build a `Law` directly.
 
 from typing import Any
 
-from flypend.laws.almost_global import almost_global
-from flypend.laws.almost_global_lag import almost_global_lag
+from flypend.laws.almost_global import almost_global, almost_global_lag
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
 from flypend.laws.controller import Controller
 from flypend.laws.gain import Bounds, Gain

@@ -23,8 +23,7 @@ from typing import NamedTuple
 import casadi as ca
 
 from flypend.geometry import E3, Scalar, Vector, cross, dot, scale, tangent_part
-from flypend.laws.almost_global_gains import axis_step, rod_step
-from flypend.laws.almost_global_position import damper, spring
+from flypend.laws.almost_global_gains import axis_step, damper, rod_step, spring
 from flypend.laws.step import Step, share
 
 SIZE, LAGGED = 14, 17  # coordinates without and through a lag

@@ -22,7 +22,7 @@ import casadi as ca
 
 from flypend import errors
 from flypend.geometry import E1, E3, Scalar, Vector, apply, cross, dot, norm, scale, smooth_norm, tangent_part
-from flypend.laws.axis import axis_moment
+from flypend.laws.axis import DAMPING, axis_moment, braking, leading, spin_of
 from flypend.laws.bound import Control, computer_of
 from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
 from flypend.laws.gain import document_gains
@@ -32,7 +32,6 @@ from flypend.laws.passage import FREE, Passage, heading, passage_of, steer
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.smooth import soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
-from flypend.laws.spinning import DAMPING, braking, leading, spin_of
 from flypend.laws.throw import (
     Bob,
     Demand,

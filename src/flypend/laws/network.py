@@ -1,12 +1,15 @@
-"""A feedforward network of one's own, as expressions in symbols."""
+"""A feedforward network of one's own, as expressions in symbols: from layers, or from an ONNX file."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.errors import InputError
@@ -122,3 +125,121 @@ def _check_layer(field: str, given: Any, before: int | None) -> Layer:
     b = errors.array(f"{field}.b", layer.b, (len(W),))
     errors.one_of(f"{field}.activation", layer.activation, ACTIVATIONS)
     return Layer(W, b, layer.activation, errors.number(f"{field}.number", layer.number))
+
+
+# ONNX files -----------------------------------------------------------------------------------------------------------
+
+_AS_IS = ("Identity", "Flatten", "Cast", "Dropout")
+_ACTIVATIONS = {
+    "Tanh": "tanh", "Relu": "relu", "Sigmoid": "sigmoid", "Softplus": "softplus", "Softsign": "softsign",
+    "Elu": "elu", "LeakyRelu": "leaky_relu",
+}  # fmt: skip
+_NUMBERS = {"Elu": 1.0, "LeakyRelu": 0.01}  # ONNX's defaults of the attribute alpha
+_BY_ENTRY: Mapping[str, Callable[[Any, Any], Any]] = {
+    "Add": np.add, "Sub": np.subtract, "Mul": np.multiply, "Div": np.divide,
+}  # fmt: skip
+OPERATORS = ("Gemm", "MatMul", *_BY_ENTRY, *_ACTIVATIONS, "Clip", *_AS_IS, "Constant")
+
+
+def read_onnx(path: Path) -> Network:
+    """Return the network in the ONNX file `path`: a chain of `OPERATORS` from one input to one output.
+
+    A last Clip is left out: it is that of the actions, from −1 to 1.
+
+    Raises InputError if onnx is not installed (extra "onnx"), there is no such file, or it holds anything
+    else.
+    """
+    errors.require("onnx", extra="onnx", for_="network")
+    import onnx
+
+    if not path.is_file():
+        raise InputError("network", "an ONNX file that is there", str(path))
+    try:
+        graph = onnx.load(path).graph
+        constants = {one.name: onnx.numpy_helper.to_array(one) for one in graph.initializer}
+    except Exception as error:  # of protobuf, of files with weights beside it, of the types of tensors
+        raise InputError("network", "an ONNX file", f"{path}: {type(error).__name__}") from None
+    given = [one.name for one in graph.input if one.name not in constants]
+    if len(given) != 1 or len(graph.output) != 1:
+        raise InputError("network", "one input and one output", f"{len(given)} and {len(graph.output)} in {path}")
+    chain = _Chain(given[0], constants)
+    for node in graph.node:
+        chain.add(node, {one.name: onnx.helper.get_attribute_value(one) for one in node.attribute})
+    if chain.last != graph.output[0].name:
+        raise InputError("network", "operators that follow one another to the output", f"another graph in {path}")
+    return Network(chain.layers)
+
+
+class _Chain:
+    """Layers, made of operators one after the other; `last` is the name of what the last one returns."""
+
+    def __init__(self, last: str, constants: dict[str, NDArray[Any]]) -> None:
+        self.last, self.constants, self.layers = last, constants, list[Layer]()
+        self._limited = False
+
+    def add(self, node: Any, attributes: Mapping[str, Any]) -> None:
+        """Add a `node` of the graph."""
+        kind = errors.one_of("network.operator", node.op_type, OPERATORS)
+        if kind == "Constant":
+            import onnx
+
+            self.constants[node.output[0]] = onnx.numpy_helper.to_array(attributes["value"])
+            return
+        if self.last not in node.input or self._limited:
+            raise InputError("network", "operators that follow one another", f"{kind} of something else")
+        others = [self.constants.get(name) for name in node.input if name != self.last]
+        if any(other is None for other in others):
+            raise InputError("network", f"constants beside the input of {kind}", "what is computed")
+        if kind == "Clip":
+            self._limited = [float(np.ravel(other)[0]) for other in others if other is not None] == [-1.0, 1.0]
+            if not self._limited:
+                raise InputError("network", "a Clip from −1 to 1 at the end", "another one")
+        elif kind in _ACTIVATIONS:
+            self._activate(_ACTIVATIONS[kind], float(attributes.get("alpha", _NUMBERS.get(kind, 1.0))))
+        elif kind not in _AS_IS:
+            self._map(kind, node.input[0] == self.last, others, attributes)
+        self.last = node.output[0]
+
+    def _activate(self, activation: str, number: float) -> None:
+        if not self.layers or self.layers[-1].activation != "identity":
+            raise InputError("network", f"a linear operator before {activation}", "none")
+        self.layers[-1] = self.layers[-1]._replace(activation=activation, number=number)
+
+    def _map(self, kind: str, first: bool, others: Sequence[Any], attributes: Mapping[str, Any]) -> None:
+        """Add a linear operator: as a layer, or to the last one, if that has no activation yet."""
+        if kind in ("Gemm", "MatMul"):
+            turned = attributes.get("transA", 0) or not first
+            W = np.asarray(others[0], dtype=float)
+            if W.ndim != 2 or turned:
+                raise InputError("network", f"{kind} of a row and a matrix", "another order")
+            W = attributes.get("alpha", 1.0) * (W if attributes.get("transB", 0) else W.T)
+            b = attributes.get("beta", 1.0) * np.ravel(others[1]) if len(others) > 1 else np.zeros(len(W))
+            self._append(W, np.broadcast_to(b, len(W)))
+            return
+        value = np.ravel(np.asarray(others[0], dtype=float))
+        if not self.layers:
+            self._append(np.eye(len(value)), np.zeros(len(value)))
+        last = self.layers[-1]
+        if last.activation != "identity":
+            last = Layer(np.eye(len(last.b)), np.zeros(len(last.b)))
+            self.layers.append(last)
+        if kind == "Div" and not first:
+            raise InputError("network", "Div by a constant", "Div of a constant")
+        if value.size not in (1, len(last.b)):
+            raise InputError("network", f"{kind} with {len(last.b)} numbers", f"{value.size}")
+        change = _BY_ENTRY[kind]
+        if kind in ("Mul", "Div"):
+            factor = np.broadcast_to(change(1.0, value), len(last.b))
+            self.layers[-1] = last._replace(W=factor[:, None] * last.W, b=factor * last.b)
+        else:
+            sign = 1.0 if first or kind == "Add" else -1.0
+            b = change(last.b, value) if first or kind == "Add" else change(value, last.b)
+            self.layers[-1] = last._replace(W=sign * last.W, b=b)
+
+    def _append(self, W: Any, b: Any) -> None:
+        """Add the layer W v + b, joined with the last one if that has no activation."""
+        last = self.layers[-1] if self.layers else None
+        if last is not None and last.activation == "identity" and W.shape[1:] == last.b.shape:
+            self.layers[-1] = Layer(W @ last.W, W @ last.b + b)
+        else:
+            self.layers.append(Layer(W, b))

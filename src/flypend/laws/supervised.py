@@ -18,9 +18,8 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, Vector
-from flypend.laws.almost_global import almost_global
+from flypend.laws.almost_global import almost_global, almost_global_lag
 from flypend.laws.almost_global_bounds import stands
-from flypend.laws.almost_global_lag import almost_global_lag
 from flypend.laws.bound import Control
 from flypend.laws.certified import ratios
 from flypend.laws.gain import POSITIVE, Gain, document_gains, table

@@ -16,8 +16,7 @@ from flypend.geometry import Scalar, norm
 from flypend.laws.bound import Control, computer_of
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.law import Law
-from flypend.laws.network import Network
-from flypend.laws.onnx_file import read_onnx
+from flypend.laws.network import Network, read_onnx
 from flypend.laws.references import Reference, hover
 from flypend.laws.seen import ATTITUDES, moment_action, observe_state, rotor_action, thrust_action
 from flypend.laws.throw import derivatives
@@ -52,7 +51,7 @@ def trained(network: str | Path | Sequence[Any], reference: Reference | None = N
     Parameters
     ----------
     network : str, Path or sequence
-        An ONNX file (extra "onnx"), whose operators are `laws.onnx_file.OPERATORS`; or the layers, each
+        An ONNX file (extra "onnx"), whose operators are `laws.network.OPERATORS`; or the layers, each
         (W (n, k), b (n,)) or (W, b, activation), as in `laws.network`.
     reference : callable, optional
         Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.

@@ -6,8 +6,8 @@ import pytest
 
 import flypend as fp
 from flypend.envs import VectorWorlds
-from flypend.laws.network import ACTIVATIONS, MOST_WEIGHTS, Network, read_onnx
 from flypend.laws.own import from_function
+from flypend.laws.trained import ACTIVATIONS, MOST_WEIGHTS, Network, read_onnx
 from flypend.settings.laws import absolute, law_from, law_named, relative
 
 onnx = pytest.importorskip("onnx")

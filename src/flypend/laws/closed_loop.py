@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import casadi as ca
+import numpy as np
 
 from flypend import errors
 from flypend.geometry import Numbers, Scalar
@@ -89,7 +90,7 @@ def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...
         behind = (ca.vertcat(*_stack(command)) - s[SIZE:]) / vehicle.rotor_lag
         rates = ca.vertcat(rates, behind)
     lyapunov, flow = _lyapunov(control), (ca.vertcat(s, t), ca.vertcat(rates, 1))
-    derived = {_rate(name): ca.jtimes(value, *flow) for name, value in lyapunov.items()}
+    derived = {f"{name}_rate": ca.jtimes(value, *flow) for name, value in lyapunov.items()}
     signals = {**lyapunov, **derived, **control.signals, **extra}
     return SymbolicLoop(t, s, p, ca.densify(rates), acting, signals, parameters)
 
@@ -106,10 +107,6 @@ def _stack(wrench: Wrench) -> list[Scalar]:
 def _lyapunov(control: Control) -> dict[str, Scalar]:
     """Return the Lyapunov functions of a law by name, and their sum V if there are any."""
     return dict(control.lyapunov) | ({"V": sum(control.lyapunov.values())} if control.lyapunov else {})
-
-
-def _rate(name: str) -> str:
-    return f"{name}_rate"
 
 
 @lru_cache(maxsize=8)
@@ -142,7 +139,7 @@ def signal_names(vehicle: Vehicle, law: Law | BoundLaw) -> tuple[str, ...]:
     """Return the names of the signals of `law`, as in `SymbolicLoop.signals`, without deriving a rate."""
     *_, control = _output(vehicle, *_check(vehicle, law, ()))
     lyapunov = _lyapunov(control)
-    return tuple(dict.fromkeys((*lyapunov, *map(_rate, lyapunov), *control.signals)))
+    return tuple(dict.fromkeys((*lyapunov, *(f"{name}_rate" for name in lyapunov), *control.signals)))
 
 
 def _check(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str]) -> tuple[BoundLaw, tuple[str, ...]]:
@@ -180,3 +177,19 @@ def _close_loop(vehicle: Vehicle, bound: BoundLaw, lag: bool) -> ClosedLoop:
         outputs=ca.Function("outputs", [loop.t, loop.s], [outputs], ["t", "s"], ["outputs"]),
         signal_names=tuple(loop.signals),
     )
+
+
+def signals_at(law: BoundLaw, start: State) -> Mapping[str, float]:
+    """Return the signals of `law` at time 0 at a single `start`, in the law's frame. Raises InputError for a batch.
+
+    A law that takes the wrench that acts gets that of rotors at their minimum.
+    """
+    if start.batch_shape:
+        raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
+    loop, packed, vehicle = close_loop(law.vehicle, law, lag=law.uses_wrench), start.packed(), law.vehicle
+    if law.uses_wrench:
+        idle = vehicle.mixing() @ np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
+        packed = np.concatenate([packed, idle])
+    with np.errstate(all="ignore"):
+        values = np.array(loop.outputs(0.0, packed)).ravel()[WRENCH:]
+    return dict(zip(loop.signal_names, values.tolist(), strict=True))

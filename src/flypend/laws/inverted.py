@@ -76,19 +76,9 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
     """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle."""
     followed = reference or hover()
     return Law(
-        name="inverted",
-        e3="up",
-        gains=GAINS,
-        given=gains,
-        control=inverted_control,
-        computer=computer_of,
-        uses_forces=True,
-        reference=followed,
-        path=carrying(followed),
-        check=go_together,
-        prepare=_prepare,
-        calm=calm,
-    )
+        name="inverted", e3="up", gains=GAINS, given=gains, control=inverted_control, computer=computer_of,
+        uses_forces=True, reference=followed, path=carrying(followed), check=go_together, prepare=_prepare, calm=calm,
+    )  # fmt: skip
 
 
 def nearness(state: State, x_dot_ref: Vector, y_ref: Vector, vehicle: Vehicle) -> Scalar:
@@ -145,13 +135,7 @@ def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def inverted_control(
-    t: Scalar,
-    state: State,
-    vehicle: Vehicle,
-    k: SimpleNamespace,
-    forces: tuple[Vector, Vector],
-    *,
-    path: Path,
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector], *, path: Path
 ) -> Control:
     """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `inverted`.
 
@@ -171,12 +155,7 @@ def inverted_control(
 
 
 def _cascade(
-    t: Scalar,
-    state: State,
-    vehicle: Vehicle,
-    k: SimpleNamespace,
-    forces: tuple[Vector, Vector],
-    path: Path,
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector], path: Path
 ) -> Control:
     """Evaluate the law as `inverted_control` does, with gains that are the same everywhere."""
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
@@ -214,6 +193,10 @@ def _cascade(
     def axis(turned: Vector) -> Vector:
         return lift(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)
 
+    def rate(wanted: Vector) -> Vector:
+        found = lie_derivative(wanted, state, rates, t)
+        return found + along(wanted, ideal[1]) if ideal else found
+
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
         bob = bob_at(ahead, path_ahead)
@@ -221,15 +204,11 @@ def _cascade(
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
         wanted = axis(path_ahead.force + steering_force(held, bob.v[2], ahead, pose, forces, vehicle, k))
         turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))
-        wanted_dot = lie_derivative(wanted, state, rates, t) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
-        if ideal:
-            wanted_dot += along(wanted, ideal[1])
+        wanted_dot = rate(wanted) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
         wanted, wanted_dot = ca.substitute([wanted, ca.densify(wanted_dot)], list(held), list(wish))
     else:
         wanted = axis(force(ahead, path_ahead, pose))
-        wanted_dot = lie_derivative(wanted, state, rates, t)
-        if ideal:
-            wanted_dot += along(wanted, ideal[1])
+        wanted_dot = rate(wanted)
     f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
     wanted, wanted_dot = calm * wanted + brake, calm * wanted_dot
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)

@@ -69,15 +69,9 @@ def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """
     followed = reference or hover()
     return Law(
-        name="lqr",
-        e3="up",
-        gains=GAINS,
-        given=gains,
-        control=_control,
+        name="lqr", e3="up", gains=GAINS, given=gains, control=_control, reference=followed, path=carrying(followed),
         prepare=lambda vehicle, given: {"K": gain_matrix(vehicle, given)},
-        reference=followed,
-        path=carrying(followed),
-    )
+    )  # fmt: skip
 
 
 def _control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:

@@ -203,7 +203,7 @@ def fingerprint(controller: Controller) -> bytes:
 
 def is_factory(function: Callable[..., Any]) -> bool:
     """Whether a `function` can be called without arguments, and so may be a factory of laws."""
-    return not _required_arguments(function)
+    return all(p.default is not p.empty for p in _parameters(function))
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,7 +247,8 @@ def _read(
     function: Callable[..., Any], name: str, records: Mapping[str, Gain]
 ) -> tuple[tuple[str, ...], dict[str, Gain]]:
     """Return the form of a function, one of `FORMS`, and its gains."""
-    needed = _required_arguments(function)
+    arguments = _parameters(function)
+    needed = [p for p in arguments if p.default is p.empty]
     form = tuple(_role(parameter.name, place) for place, parameter in enumerate(needed))
     bare = [p.name for p in needed if p.kind is p.KEYWORD_ONLY]
     if bare:
@@ -255,7 +256,7 @@ def _read(
     if form not in FORMS:
         got = ", ".join(p.name for p in needed) or "nothing"
         raise InputError("law", EXPECTED, f"{name} of ({got})")
-    table = {p.name: records.get(p.name, Gain(p.name, p.default, label=p.name)) for p in _default_arguments(function)}
+    table = {p.name: records.get(p.name, Gain(p.name, p.default, label=p.name)) for p in arguments if p not in needed}
     for gain in table.values():
         if not (is_number(gain.default) or isinstance(gain.default, str)):
             raise InputError("law", "gains that are numbers or words", f"{name} with {gain.name} = {gain.default!r}")
@@ -271,15 +272,6 @@ def _role(name: str, place: int) -> str:
     if not bare:
         return (*ROLES, *[name] * (place + 1))[place]
     return next((role for role, names in ROLES.items() if bare in names), name)
-
-
-def _required_arguments(function: Callable[..., Any]) -> list[inspect.Parameter]:
-    """Return the required arguments of a function."""
-    return [p for p in _parameters(function) if p.default is p.empty]
-
-
-def _default_arguments(function: Callable[..., Any]) -> list[inspect.Parameter]:
-    return [p for p in _parameters(function) if p.default is not p.empty]
 
 
 def _parameters(function: Callable[..., Any]) -> list[inspect.Parameter]:

@@ -102,11 +102,7 @@ def control_repaired(
         wrench=Wrench(
             f, axis_moment(state, vehicle.in_frame("down"), apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])
         ),
-        lyapunov={
-            "V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2,
-            "V_2": u.potential,
-            "V_3": u.kinetic,
-        },
+        lyapunov={"V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2, "V_2": u.potential, "V_3": u.kinetic},
         signals={
             "V_rate_claimed": u.decay - dot(y_dot, sigma),  # (A5)
             "domain": 1 + aimed.cosine,

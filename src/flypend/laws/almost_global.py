@@ -158,7 +158,7 @@ def _lagged_control(
 ) -> Control:
     """Evaluate the law for symbols `t` (s), `state` and `acting`, with the gains `k` of `almost_global_lag`."""
     wanted = almost_global_control(t, state, vehicle, k, path=path)
-    return through_lag(wanted, t, state, acting, vehicle, k, "up")
+    return through_lag(wanted, t, state, acting, vehicle, k)
 
 
 def _outer(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, path: Path) -> Outer:

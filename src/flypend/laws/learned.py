@@ -79,11 +79,11 @@ class Policy:
     W_3: Matrix
 
     def __post_init__(self) -> None:
-        n = len(_single("D", self.D, (None, FEATURES)))
-        k, m = (len(_single(name, getattr(self, name), (None,))) for name in ("b_1", "b_2"))
-        shapes = {"D": (n, FEATURES), "W_1": (k, FEATURES), "b_1": (k,), "W_2": (m, k), "b_2": (m,), "W_3": (n, m)}
-        for name, shape in shapes.items():
-            object.__setattr__(self, name, _single(name, getattr(self, name), shape))
+        sizes: dict[str | int, int] = {FEATURES: FEATURES}
+        for name, field in FIELDS.items():
+            weights = _single(name, getattr(self, name), tuple(sizes.get(dim) for dim in field.dims))
+            sizes |= zip(field.dims, weights.shape, strict=True)
+            object.__setattr__(self, name, weights)
         if self.size > MOST_WEIGHTS:
             raise InputError("policy", f"at most {MOST_WEIGHTS} weights", f"{self.size}")
 

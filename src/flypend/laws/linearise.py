@@ -11,7 +11,7 @@ and the other coordinates are linear.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -94,12 +94,7 @@ class Linearisation:
         if not self._is_free(left_out):
             raise InputError("coordinates", "some that the others do not depend on", ", ".join(names))
         keep = [i for i, name in enumerate(self.coordinates) if name not in left_out]
-        return Linearisation(
-            at=self.at,
-            A=self.A[np.ix_(keep, keep)],
-            coordinates=tuple(self.coordinates[i] for i in keep),
-            acceleration=self.acceleration,
-        )
+        return replace(self, A=self.A[np.ix_(keep, keep)], coordinates=tuple(self.coordinates[i] for i in keep))
 
     def _members(self, name: str) -> tuple[str, ...]:
         found = tuple(one for one in self.coordinates if name in (one, one[:-2]))

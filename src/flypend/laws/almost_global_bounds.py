@@ -16,8 +16,8 @@ import numpy as np
 
 from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
 from flypend.laws.bound import BoundLaw
-from flypend.laws.closed_loop import signals_at
-from flypend.laws.guarantee import IDEAL, LAGGED, Guarantee, least_distance, least_share, outside, rate_bound, saturate
+from flypend.laws.closed_loop import outside, signals_at
+from flypend.laws.guarantee import IDEAL, LAGGED, Guarantee, least_distance, least_share, rate_bound, saturate
 from flypend.laws.step import Step
 from flypend.model import State, Vehicle
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,6 +13,7 @@ import numpy as np
 from flypend import errors
 from flypend.geometry import Numbers, Scalar
 from flypend.laws.bound import BoundLaw, Control
+from flypend.laws.guarantee import Guarantee
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion
 from flypend.model.state import SIZE
@@ -193,3 +195,15 @@ def signals_at(law: BoundLaw, start: State) -> Mapping[str, float]:
     with np.errstate(all="ignore"):
         values = np.array(loop.outputs(0.0, packed)).ravel()[WRENCH:]
     return dict(zip(loop.signal_names, values.tolist(), strict=True))
+
+
+def outside(law: BoundLaw, found: Mapping[str, float], sets: Mapping[str, str]) -> Guarantee | None:
+    """Return the guarantee of a start on an exceptional set; None for one in the domain.
+
+    `sets` maps the signal whose value −1 marks a set to its equation; `found` are the signals at the start.
+    """
+    assert law.guard is not None
+    for signal, equation in sets.items():
+        if not 1 + found[signal] > law.guard.threshold:
+            return Guarantee(covered=False, reason=f"outside the domain: {equation}", V=math.inf)
+    return None

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from flypend.geometry import Scalar
 from flypend.laws.step import Step
 from flypend.model import Vehicle
-
-if TYPE_CHECKING:
-    from flypend.laws.bound import BoundLaw
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,18 +62,6 @@ def list_unmodelled(vehicle: Vehicle, *, on_hub: bool = False) -> str:
         "a rod that spins": bool(vehicle.rod_spin and vehicle.rod_spin_inertia),
     }
     return ", ".join(words for words, present in has.items() if present)
-
-
-def outside(law: BoundLaw, found: Mapping[str, float], sets: Mapping[str, str]) -> Guarantee | None:
-    """Return the guarantee of a start on an exceptional set; None for one in the domain.
-
-    `sets` maps the signal whose value −1 marks a set to its equation; `found` are the signals at the start.
-    """
-    assert law.guard is not None
-    for signal, equation in sets.items():
-        if not 1 + found[signal] > law.guard.threshold:
-            return Guarantee(covered=False, reason=f"outside the domain: {equation}", V=math.inf)
-    return None
 
 
 IDEAL = (

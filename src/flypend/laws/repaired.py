@@ -19,9 +19,9 @@ from flypend import errors
 from flypend.geometry import E3, Scalar, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
-from flypend.laws.closed_loop import signals_at
+from flypend.laws.closed_loop import outside, signals_at
 from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, check_gravity, document_gains, table
-from flypend.laws.guarantee import IDEAL, Guarantee, outside, saturate
+from flypend.laws.guarantee import IDEAL, Guarantee, saturate
 from flypend.laws.law import Law
 from flypend.laws.step import Step, aim, push
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative

@@ -195,6 +195,8 @@ class _Chain:
         if kind == "Constant":
             import onnx
 
+            if "value" not in attributes:
+                raise InputError("network", "constants that are tensors", f"a constant of {', '.join(attributes)}")
             self.constants[node.output[0]] = onnx.numpy_helper.to_array(attributes["value"])
             return
         if self.last not in node.input or self._limited:
@@ -225,7 +227,9 @@ class _Chain:
             if W.ndim != 2 or turned:
                 raise InputError("network", f"{kind} of a row and a matrix", "another order")
             W = attributes.get("alpha", 1.0) * (W if attributes.get("transB", 0) else W.T)
-            b = attributes.get("beta", 1.0) * np.ravel(others[1]) if len(others) > 1 else np.zeros(len(W))
+            b = attributes.get("beta", 1.0) * np.ravel(others[1]) if len(others) > 1 else np.zeros(1)
+            if b.size not in (1, len(W)):
+                raise InputError("network", f"{kind} with {len(W)} biases", f"{b.size}")
             self._append(W, np.broadcast_to(b, len(W)))
             return
         value = np.ravel(np.asarray(others[0], dtype=float))

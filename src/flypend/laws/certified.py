@@ -19,20 +19,10 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
 from flypend.geometry import E3, Numbers, Scalar, apply, cross, dot, hat
+from flypend.laws import certificate as checker
 from flypend.laws.almost_global_bounds import farthest, stands
 from flypend.laws.almost_global_gains import axis_step, rod_step
 from flypend.laws.bound import COMPUTER, BoundLaw
-from flypend.laws.certificate import (
-    NotProvedError,
-    Polynomial,
-    evaluate_program,
-    lean,
-    outside,
-    radii,
-    ranges_of,
-    split,
-    touching,
-)
 from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.laws.closed_loop import COMMANDS, WRENCH, symbolic_loop, wrench_in
 from flypend.laws.guarantee import least_distance, list_unmodelled
@@ -198,23 +188,24 @@ def _guess(found: dict[str, Any], most: float) -> float:
     """Return a c, at most `most`, at which the linear part of the forces uses `LINEAR` of the room at ω₃ = 0."""
     tiny, numbers = 1e-6 * most, found["numbers"]
     chart, k = chart_function(tuple(numbers)), list(numbers.values())
-    ends = np.diag(radii(numbers, tiny))  # so near that differences are the linear part
+    ends = np.diag(checker.radii(numbers, tiny))  # so near that differences are the linear part
     forth, back = (np.array([np.array(chart(xi, k)[0]).ravel() for xi in side]) for side in (ends, -ends))
     middle, slopes = (forth + back)[0] / 2, (forth - back).T / 2
-    models = [(Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
-    share = _largest(found, ranges_of(found, tiny, 0.0, split(models)))
+    models = [(checker.Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
+    share = _largest(found, checker.ranges_of(found, tiny, 0.0, checker.split(models)))
     return min(most, tiny * (LINEAR / share) ** 2)
 
 
 def _share(found: dict[str, Any], c: float) -> float:
     """Return the largest share of the room between hover and a limit that a rotor's force may use; ∞ if unbounded."""
     try:
-        answer = evaluate_program(found, c)
-    except NotProvedError:
+        answer = checker.evaluate_program(found, c)
+    except checker.NotProvedError:
         return math.inf
-    ranges = ranges_of(found, c, found["w"], answer)
+    ranges = checker.ranges_of(found, c, found["w"], answer)
     share = _largest(found, ranges)
-    return max(1.0 + 1e-9, share) if outside(found, ranges) or touching(found, lean(answer)) else share
+    refused = checker.outside(found, ranges) or checker.touching(found, checker.lean(answer))
+    return max(1.0 + 1e-9, share) if refused else share
 
 
 def _largest(found: dict[str, Any], ranges: list[tuple[float, float]]) -> float:

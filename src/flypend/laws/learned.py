@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from importlib import resources
 from pathlib import Path
 from types import SimpleNamespace
@@ -30,7 +30,7 @@ from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
 from flypend.geometry import E3, Numbers, Scalar, Vector, norm, smooth_norm
-from flypend.laws.bound import Computer, Control, computer_of
+from flypend.laws.bound import Control, computer_of
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, check_gravity, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.references import Reference, hover
@@ -190,32 +190,21 @@ GAINS = table(
 def learned(reference: Reference | None = None, **gains: Any) -> Law:
     """Build the learned law."""
     followed = reference or hover()
-
-    def control(
-        t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector]
-    ) -> Control:
-        """The learned law about the reference, which it is shown at most `k.reach` rod lengths away."""
-        return learned_control(t, state, vehicle, k.network, forces, followed, k.reach)
-
     return Law(
-        name="learned", e3="up", gains=GAINS, given=gains, control=control, prepare=_prepare, reference=followed,
-        computer=_computer,
-        uses_forces=True,
+        name="learned", e3="up", gains=GAINS, given=gains, control=learned_control, computer=computer_of,
+        uses_forces=True, reference=followed, prepare=partial(_prepare, followed),
     )  # fmt: skip
 
 
-def _computer(gains: Mapping[str, Any]) -> Computer:
-    """Return the flight computer settings for these `gains`: the network was trained behind the rotors' lag."""
-    return computer_of({**gains, "models_lag": True})
-
-
-def _prepare(vehicle: Vehicle, gains: Any) -> dict[str, Any]:
+def _prepare(reference: Reference, vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Any]:
     check_gravity(vehicle)
     usual = ON_HUB if vehicle.mount == "hub" else SHIPPED
     network = policy(usual if gains["policy"] == USUAL else gains["policy"])
     if len(network.D) != len(vehicle.rotor_spins):
         raise InputError("vehicle", f"one with {len(network.D)} rotors, like the policy", f"{len(vehicle.rotor_spins)}")
-    return {"network": network, "reach": REACH_ON_HUB if vehicle.mount == "hub" else REACH}
+    reach = REACH_ON_HUB if vehicle.mount == "hub" else REACH
+    # The network was trained behind the rotors' lag, as its flight computer has to know.
+    return {"network": network, "reach": reach, "reference": reference, "models_lag": True}
 
 
 def policy_names() -> list[str]:
@@ -237,29 +226,23 @@ def _read_shipped(name: str) -> Policy:
 
 
 def learned_control(
-    t: Scalar,
-    state: State,
-    vehicle: Vehicle,
-    network: Policy,
-    forces: tuple[Vector, Vector],
-    reference: Reference,
-    reach: float,
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector]
 ) -> Control:
-    """Evaluate the `network` for symbols `t` (s) and `state` of `vehicle` about its `reference`.
+    """Evaluate the network of `k` for symbols `t` (s) and `state` of `vehicle` about the reference of `k`.
 
-    It is shown no place farther off than `reach`, in rod lengths.
+    It is shown no place farther off than `k.reach`, in rod lengths.
 
     Of the external `forces` on vehicle and bob, each (3, 1), N, the vertical part is carried: hover then takes less or
     more than the weight.
     """
-    x_ref = reference(t)
+    x_ref = k.reference(t)
     x, x_dot = state.x - x_ref, state.x_dot - ca.densify(derivatives(x_ref, t, 1)[0])
-    far = reach * vehicle.l
+    far = k.reach * vehicle.l
     x = x * far / ca.fmax(smooth_norm(x, 1e-6 * far), far)
     phi = features(state, x, x_dot, vehicle.l, ca.sqrt(vehicle.l / vehicle.g))
     low, high = vehicle.rotor_limits
     level = (vehicle.weight - forces[0][2] - forces[1][2]) / len(vehicle.rotor_spins)
     hover_share = ca.fmin(ca.fmax((level - low) / (high - low), LEAST_SHARE), 1 - LEAST_SHARE)
-    rotors = low + (high - low) * shares(network.asked(phi), hover_share)
+    rotors = low + (high - low) * shares(k.network.asked(phi), hover_share)
     wrench = ca.mtimes(vehicle.mixing(), rotors)
     return Control(wrench=Wrench(wrench[0], wrench[1:]), signals={"position_error": norm(x)})

@@ -69,14 +69,9 @@ def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """
     followed = reference or hover()
     return Law(
-        name="lqr", e3="up", gains=GAINS, given=gains, control=_control, reference=followed, path=carrying(followed),
+        name="lqr", e3="up", gains=GAINS, given=gains, control=lqr_control, reference=followed, path=carrying(followed),
         prepare=lambda vehicle, given: {"K": gain_matrix(vehicle, given)},
     )  # fmt: skip
-
-
-def _control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
-    """Evaluate the law for symbols `t` (s) and `state`, with its gain matrix k.K (4, 16)."""
-    return lqr_control(t, state, vehicle, k.K, path)
 
 
 def by_matrix(K: Numbers) -> Law:
@@ -91,7 +86,7 @@ def by_matrix(K: Numbers) -> Law:
         matrix = ca.SX.zeros(4, len(COORDINATES))
         for name, i, j in ENTRIES:
             matrix[i, j] = getattr(k, name)
-        return lqr_control(t, state, vehicle, matrix, path)
+        return lqr_control(t, state, vehicle, SimpleNamespace(K=matrix), path=path)
 
     gains = [Gain(name, value, doc="Entry of the gain matrix, SI units") for name, value in entries(K).items()]
     return Law(name="lqr", e3="up", gains=gains, control=control, reference=followed, path=carrying(followed))
@@ -160,21 +155,20 @@ def weights(vehicle: Vehicle, deviations: Any) -> tuple[Numbers, Numbers]:
     return np.diag(1 / np.array(state) ** 2), np.diag(1 / wrench**2)
 
 
-def lqr_control(t: Scalar, state: State, vehicle: Vehicle, K: Numbers, path: Path) -> Control:
-    """Evaluate the law with gain matrix `K` (4, 16) for symbols `t` (s) and `state` of `vehicle`, along `path`.
+def lqr_control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
+    """Evaluate the law with gain matrix `k.K` (4, 16) for symbols `t` (s) and `state` of `vehicle`, along `path`.
 
     The reference wrench is the one that moves rod and vehicle along the path; in hover it is the weight.
     """
-    I = vehicle.I
     x_ref, v_ref, y_ref, z_ref, f_ref = flat_reference(t, path, vehicle)
     y_ref_dot = ca.jacobian(y_ref, t)
     turn = cross(z_ref, ca.jacobian(z_ref, t))  # angular velocity of z_ref, world frame
     omega_ref, alpha_ref = apply(state.R.T, turn), apply(state.R.T, ca.jacobian(turn, t))
 
     xi = errors_of(state, x_ref, v_ref, z_ref, omega_ref, y_ref, y_ref_dot)
-    change = ca.mtimes(K if is_symbolic(K) else ca.DM(K), xi)
+    change = ca.mtimes(k.K if is_symbolic(k.K) else ca.DM(k.K), xi)
     thrust = ca.fmax(f_ref - change[0], 0)
-    moment = apply(I, alpha_ref) - change[1:]
+    moment = apply(vehicle.I, alpha_ref) - change[1:]
     return Control(
         wrench=Wrench(thrust, moment),
         signals={"rod_error": norm(state.y - y_ref), "axis_error": norm(state.z - z_ref)},

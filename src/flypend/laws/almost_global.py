@@ -103,11 +103,6 @@ def certify(law: BoundLaw) -> CertifiedSet:
     return certified_set(law)
 
 
-def _least(rod: Scalar, axis: Scalar) -> Scalar:
-    """Return the lesser of 1 + c_y and 1 + c; where the first is 0, the second is not a number."""
-    return ca.if_else(rod < OUTSIDE.threshold, rod, ca.fmin(rod, axis))
-
-
 class Outer(NamedTuple):
     """The outer loops: the force F (3, 1), N, the terms of their V, ζ_y, c_y, and their claimed part of V̇."""
 
@@ -139,13 +134,14 @@ def almost_global_control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNa
     aimed = aim(z, z_d, turn, N, G, step)
     u: Push = push(z, axis_rate(state), aimed, lie_derivative(aimed.rate, state, rates, t), step)  # Lemma S
 
-    terms = (*outer.terms, u.potential, u.kinetic)
+    terms, apart = (*outer.terms, u.potential, u.kinetic), 1 + outer.cosine
     return Control(
         wrench=Wrench(f, axis_moment(state, vehicle, apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])),
         lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
         signals={
             "V_rate_claimed": outer.decay + u.decay,  # (B9)
-            "domain": _least(1 + outer.cosine, 1 + c),
+            # Where 1 + c_y is 0, c is not a number.
+            "domain": ca.if_else(apart < OUTSIDE.threshold, apart, ca.fmin(apart, 1 + c)),
             "rod_cosine": outer.cosine,
             "axis_cosine": c,
             "axis_error": norm(z - z_d),

@@ -234,10 +234,7 @@ class BoundLaw(Feedback):
 
         The law's theorem is about its own path, so the law returned has none.
         """
-        return None if self.path is None else self._along
-
-    def _along(self, path: Path) -> BoundLaw:
-        return replace(self, path=path, theorem=None, certify=None)
+        return None if self.path is None else lambda path: replace(self, path=path, theorem=None, certify=None)
 
     def evaluate(
         self,

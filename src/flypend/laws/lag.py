@@ -26,18 +26,16 @@ from flypend.laws.gain import POSITIVE, Bounds, Gain
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
 
-
-def _weight_of_thrust(vehicle: Vehicle) -> float:
-    return float(11.0 * vehicle.l * vehicle.g / vehicle.weight**2)
-
-
 # V is an energy over the mass: l g is its unit, √(l/g) that of time.
 GAINS = (
     Gain(
         "wrench_damping", lambda vehicle: float(4.8 * (vehicle.g / vehicle.l) ** 0.5), "1/s",
         "κ: decay of the wrench's error", POSITIVE,
     ),
-    Gain("thrust_weight", _weight_of_thrust, "m²/(s² N²)", "Weight of the thrust's error in V'", POSITIVE),
+    Gain(
+        "thrust_weight", lambda vehicle: float(11.0 * vehicle.l * vehicle.g / vehicle.weight**2), "m²/(s² N²)",
+        "Weight of the thrust's error in V'", POSITIVE,
+    ),
     Gain(
         "moment_weight", lambda vehicle: float(0.54 * vehicle.l**3 / vehicle.g), "m² s²",
         "Weight of the error of I⁻¹ times the moment in V'", POSITIVE,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -151,17 +150,16 @@ class Law(Feedback):
 
     def _calmer(self, vehicle: Vehicle) -> Callable[[float], BoundLaw] | None:
         """Return share → the law bound to `vehicle` with gains as calm; None if there are none, or all are given."""
-        if self.calm is None or not set(self.calm(vehicle, 1.0)) - set(self.given):
+        calm = self.calm
+        if calm is None or not set(calm(vehicle, 1.0)) - set(self.given):
             return None
-        return partial(self._calmed, self.calm, vehicle)
 
-    def _calmed(self, calm: Callable[[Vehicle, float], Values], vehicle: Vehicle, share: float) -> BoundLaw:
-        """Return the law bound to `vehicle`, near its reference with the gains of `calm` that were not given."""
-        if share == 0:
-            return self.bind(vehicle)
-        bound = self.bind(vehicle)
-        ratios = {
-            name: value / bound.gains[name] for name, value in calm(vehicle, share).items() if name not in self.given
-        }
-        prepared = {**bound.prepared, "calming": ratios}
-        return replace(bound, prepared=prepared, calmer=partial(self._calmed, calm, vehicle), calm=share)
+        def calmed(share: float) -> BoundLaw:
+            bound = self.bind(vehicle)
+            if share == 0:
+                return bound
+            wanted = {name: value for name, value in calm(vehicle, share).items() if name not in self.given}
+            ratios = {name: value / bound.gains[name] for name, value in wanted.items()}
+            return replace(bound, prepared={**bound.prepared, "calming": ratios}, calm=share)
+
+        return calmed

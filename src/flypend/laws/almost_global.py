@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import casadi as ca
 
@@ -26,7 +26,8 @@ from flypend.geometry import E3, Scalar, Vector, apply, cross, dot, norm, scale
 from flypend.laws.almost_global_bounds import theorem_b, theorem_d
 from flypend.laws.almost_global_gains import GAINS, axis_step, damper, demand_stays_upward, rod_step, spring
 from flypend.laws.axis import axis_moment, axis_rate
-from flypend.laws.bound import COMPUTER, BoundLaw, Control, Guard, computer_of
+from flypend.laws.bound import COMPUTER, Control, Guard, computer_of
+from flypend.laws.certified import certified_set
 from flypend.laws.gain import document_gains, table
 from flypend.laws.lag import GAINS as LAG_GAINS
 from flypend.laws.lag import through_lag
@@ -35,9 +36,6 @@ from flypend.laws.references import Path, Reference, hover
 from flypend.laws.step import Push, aim, push, share
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, lie_derivative
-
-if TYPE_CHECKING:
-    from flypend.laws.certified import CertifiedSet
 
 OUTSIDE = Guard(
     signal="domain",
@@ -87,20 +85,13 @@ def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law
 def _about(reference: Reference | None, **own: Any) -> Law:
     """Return a law about a `reference`; `own` are the fields in which the two differ."""
     followed = reference or hover()
-    return Law(e3="up", guard=OUTSIDE, reference=followed, path=carrying(followed), certify=certify, **own)
+    return Law(e3="up", guard=OUTSIDE, reference=followed, path=carrying(followed), certify=certified_set, **own)
 
 
 def _prepare_lagged(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:
     if vehicle.rotor_lag <= 0:
         raise InputError("vehicle.rotor_lag", "a lag > 0 s; without one, almost_global", f"{vehicle.rotor_lag:g} s")
     return demand_stays_upward(vehicle, gains)
-
-
-def certify(law: BoundLaw) -> CertifiedSet:
-    """Return the largest set that is proved for the bound `law`."""
-    from flypend.laws.certified import certified_set  # it reads this law another way
-
-    return certified_set(law)
 
 
 class Outer(NamedTuple):

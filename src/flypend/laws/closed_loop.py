@@ -83,17 +83,14 @@ def symbolic_loop(
 def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool) -> SymbolicLoop:
     """The equations of motion under `bound`, with its signals and the rates of its Lyapunov functions."""
     t, s, p, control = _output(vehicle, bound, parameters, lag)
-    state, acting, extra = State.symbolic(s), control.wrench, {}
+    acting, command, commands = wrench_in(s) if lag else control.wrench, _stack(control.wrench), {}
+    rates = equations_of_motion(State.symbolic(s), acting, vehicle, bound.e3).packed()
     if lag:
-        acting, command = wrench_in(s), control.wrench
-        extra = dict(zip(COMMANDS, _stack(command), strict=True))
-    rates = equations_of_motion(state, acting, vehicle, bound.e3).packed()
-    if lag:
-        behind = (ca.vertcat(*_stack(command)) - s[SIZE:]) / vehicle.rotor_lag
-        rates = ca.vertcat(rates, behind)
+        commands = dict(zip(COMMANDS, ca.vertsplit(command), strict=True))
+        rates = ca.vertcat(rates, (command - s[SIZE:]) / vehicle.rotor_lag)
     lyapunov, flow = _lyapunov(control), (ca.vertcat(s, t), ca.vertcat(rates, 1))
     derived = {f"{name}_rate": ca.jtimes(value, *flow) for name, value in lyapunov.items()}
-    signals = {**lyapunov, **derived, **control.signals, **extra}
+    signals = {**lyapunov, **derived, **control.signals, **commands}
     return SymbolicLoop(t, s, p, ca.densify(rates), acting, signals, parameters)
 
 
@@ -102,8 +99,8 @@ def wrench_in(s: Numbers) -> Wrench:
     return Wrench(s[SIZE], s[SIZE + 1 :])
 
 
-def _stack(wrench: Wrench) -> list[Scalar]:
-    return ca.vertsplit(ca.densify(ca.vertcat(wrench.thrust, wrench.moment)))  # type: ignore[no-any-return]
+def _stack(wrench: Wrench) -> Numbers:
+    return ca.densify(ca.vertcat(wrench.thrust, wrench.moment))
 
 
 def _lyapunov(control: Control) -> dict[str, Scalar]:
@@ -120,7 +117,7 @@ def _output(
     gains = {name: p[i] for i, name in enumerate(parameters)}
     acting = wrench_in(s) if lag else None
     control = bound.evaluate(t, State.symbolic(s), vehicle, gains=gains, acting=acting)
-    check_parameters(bound.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
+    check_parameters(bound.name, _stack(control.wrench), parameters, p)
     return t, s, p, control
 
 
@@ -170,7 +167,7 @@ def close_loop(vehicle: Vehicle, law: Law | BoundLaw, *, lag: bool = False) -> C
 @lru_cache(maxsize=8)  # what a theorem says of each of many starts takes the same
 def _close_loop(vehicle: Vehicle, bound: BoundLaw, lag: bool) -> ClosedLoop:
     loop = symbolic_loop(vehicle, bound, lag=lag)
-    outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())
+    outputs = ca.vertcat(_stack(loop.wrench), *loop.signals.values())
     rates, outputs = ca.cse([loop.rates, ca.densify(outputs)])
     return ClosedLoop(
         vehicle=vehicle,

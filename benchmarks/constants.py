@@ -16,7 +16,7 @@ import numpy as np
 
 import flypend as fp
 from benchmarks.vehicles import DURATION, numbers, random_vehicle
-from flypend.laws import inverted_gains, spinning, throw
+from flypend.laws import axis, inverted_gains, throw
 from flypend.laws.gain import Gain
 from flypend.laws.inverted_gains import GAINS, NUMBERS, PUMPING, Scales
 from flypend.laws.throw import carrying
@@ -28,7 +28,7 @@ MOST_LAG = 0.5  # √(l/g): beyond this whatever one changes decides about a veh
 # Constants of the equations, which here become gains, so that one compiled law flies all rows.
 OPEN = {
     "AXIS_LIFT": inverted, "AXIS_FLOOR": inverted, "ANTIPODE_PUSH": inverted, "ANTIPODE_FLOOR": inverted,
-    "TURN": inverted, "SPUN": spinning, "CIRCLING": throw, "PUMP_RATE": throw, "FAR_PULL": throw, "LEVEL_SHARE": throw,
+    "TURN": inverted, "SPUN": axis, "CIRCLING": throw, "PUMP_RATE": throw, "FAR_PULL": throw, "LEVEL_SHARE": throw,
     "FLIP_WIDTH": throw, "THRUST_SHARE": throw,
 }  # fmt: skip
 # Numbers of the law's own that are no gains.

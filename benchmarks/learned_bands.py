@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 import flypend as fp
-from flypend.laws.policy import save
+from flypend.laws.learned import save
 from flypend.learning.training import Learner, usual
 from flypend.studies.bands import worlds_within
 

@@ -193,7 +193,7 @@ def _check_names(name: str, known: Sequence[inspect.Parameter], given: Mapping[s
 
 def documentation_of(target: Any, name: str, otherwise: str = "a value") -> str:
     """Return what the docstring of `target` says of its argument `name`: kind, meaning and unit, up to a full stop."""
-    found = re.search(rf"^( +)(?:\w+, )*{name}(?:, \w+)* : (.*)\n((?:\1 +.*\n)+)", f"{target.__doc__}\n", re.MULTILINE)
+    found = re.search(rf"^( *)(?:\w+, )*{name}(?:, \w+)* : (.*)\n((?:\1 +.*\n)+)", f"{target.__doc__}\n", re.MULTILINE)
     if found is None:
         return otherwise
     said = " ".join(found[3].split()).split(". ")[0].rstrip(".")

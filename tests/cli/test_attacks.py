@@ -26,8 +26,8 @@ import flypend as fp
 from flypend.cli import app as cli
 from flypend.files.toml import toml_text
 from flypend.flight import simulate
-from flypend.laws.policy import load as load_policy
-from flypend.laws.policy import save as save_policy
+from flypend.laws.learned import load as load_policy
+from flypend.laws.learned import save as save_policy
 from flypend.learning import training
 from flypend.learning.course import Course
 from flypend.learning.training import Learner, Training

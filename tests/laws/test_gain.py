@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend import errors
 from flypend.export.interface import interface
 from flypend.laws import law_from_dict, law_names
 from flypend.laws.gain import POSITIVE, SHARE, Bounds, Gain, check_gains, document_gains, is_number, table
@@ -149,6 +150,21 @@ def test_documented_fills_in_one_line_and_keeps_the_rest():
         """
 
     assert inspect.getdoc(f) == "First.\n\nGains\n-----\nk : float, default 1.0\n    How far, m\n\nLast."
+
+
+def test_documented_adds_sections_to_a_docstring_that_has_lost_its_indent():
+    """As every docstring has from Python 3.13 on."""
+
+    def f(reference=None, **gains):
+        pass
+
+    f.__doc__ = "First.\n\nMore.\n"
+    text = inspect.getdoc(document_gains(table([Gain("k", 1.0, "m", "How far")]), " or far", ", smooth")(f))
+    assert text.startswith("First.\n\nMore.\n\nParameters\n----------\nreference : callable, optional\n    Pivot")
+    assert "function of time, smooth; default" in text
+    assert "\n\nGains\n-----\nk : float, default 1.0\n    How far, m\n\nRaises\n------\nInputError\n" in text
+    assert text.endswith("out of bounds or far.")
+    assert errors.documentation_of(f, "reference").startswith("callable, optional: pivot position (3,), m, as")
 
 
 # Law and BoundLaw ------------------------------------------------------------------------------------------------

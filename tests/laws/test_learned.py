@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.laws.learned import policy, policy_names
-from flypend.laws.policy import MOST_WEIGHTS
+from flypend.laws.learned import MOST_WEIGHTS, policy, policy_names
 from tests.few import few
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -146,7 +145,7 @@ def hexacopter():
 
 
 def test_a_run_file_names_a_policy_of_ones_own(tmp_path):
-    from flypend.laws.policy import save
+    from flypend.laws.learned import save
 
     save(policy("hehn2011"), tmp_path / "mine.npz")
     law = fp.laws.law_from_dict({"name": "learned", "gains": {"policy": str(tmp_path / "mine.npz")}})

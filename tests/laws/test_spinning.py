@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.laws.axis import SPUN, THRUST_SHARE, leading, spin_of
 from flypend.laws.inverted_gains import angular_authority
-from flypend.laws.spinning import SPUN, THRUST_SHARE, leading, spin_of
 from flypend.model.dynamics import gyroscopic_moment
 
 VEHICLE = fp.vehicle("hehn2011")

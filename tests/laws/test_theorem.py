@@ -15,8 +15,7 @@ from benchmarks.withstood import withstood
 from flypend.geometry import E3, norm, rotation_from_vector
 from flypend.laws import references
 from flypend.laws.almost_global_bounds import slopes
-from flypend.laws.almost_global_gains import largest_descent
-from flypend.laws.almost_global_position import damper, spring
+from flypend.laws.almost_global_gains import damper, largest_descent, spring
 from flypend.laws.guarantee import least_distance, rate_bound
 from flypend.laws.repaired import control_repaired, stiffness
 from flypend.laws.step import Step

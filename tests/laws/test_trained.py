@@ -6,9 +6,8 @@ import pytest
 
 import flypend as fp
 from flypend.envs import VectorWorlds
-from flypend.laws.network import ACTIVATIONS, MOST_WEIGHTS, Network
-from flypend.laws.onnx_file import read_onnx
 from flypend.laws.own import from_function
+from flypend.laws.trained import ACTIVATIONS, MOST_WEIGHTS, Network, read_onnx
 from flypend.settings.laws import absolute, law_from, law_named, relative
 
 onnx = pytest.importorskip("onnx")
@@ -173,6 +172,7 @@ FAULTS = {
     "NaN": ((("Gemm", ["W"], {"transB": 1}),), {"W": np.full((4, 24), np.nan)}),
     "an operator": ((("Gemm", ["W"], {"transB": 1}), ("Softmax", [], {})), {"W": np.zeros((4, 24))}),
     "no linear operator": ((("Tanh", [], {}),), {}),
+    "too few biases": ((("Gemm", ["W", "b"], {"transB": 1}),), {"W": np.zeros((4, 24)), "b": np.zeros(3)}),
     "what is computed": ((("Gemm", ["W"], {"transB": 1}), ("Add", ["seen"], {})), {"W": np.zeros((24, 24))}),
     "a limit in between": ((("Gemm", ["W"], {"transB": 1}), ("Clip", ["l", "h"], {}), ("Tanh", [], {})),
                            {"W": np.zeros((4, 24)), "l": -1.0, "h": 1.0}),
@@ -189,6 +189,12 @@ def test_a_file_that_holds_anything_else_is_refused_in_a_line(fault, tmp_path):
     with pytest.raises(fp.InputError, match=r"^network") as told:
         fp.laws.trained(saved(tmp_path / "wrong.onnx", chain(*steps), constants))
     assert "\n" not in str(told.value)
+
+
+def test_a_constant_that_is_no_tensor_is_refused_in_a_line(tmp_path):
+    nodes = [helper.make_node("Constant", [], ["two"], value_float=2.0), *chain(("Mul", ["two"], {}))]
+    with pytest.raises(fp.InputError, match=r"^network: expected constants that are tensors, got .* value_float$"):
+        fp.laws.trained(saved(tmp_path / "wrong.onnx", nodes, {}))
 
 
 def test_what_is_no_onnx_file_is_refused_in_a_line(tmp_path):

@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 from threadpoolctl import threadpool_limits
 
 import flypend as fp
+from flypend.laws.learned import FEATURES, Policy, load, save
 from flypend.laws.linearise import linearise
-from flypend.laws.policy import FEATURES, Policy, load, save
 from flypend.learning import flights as flying
 from flypend.learning import world
 from flypend.learning.course import Course

@@ -845,8 +845,7 @@ def test_random_numbers_of_the_page_are_those_of_the_plant():
 
 def test_a_learned_law_flies_with_its_network_inside(visit, tmp_path):
     """A policy from a file: the page still knows its weights once the file is gone."""
-    from flypend.laws.learned import policy
-    from flypend.laws.policy import save
+    from flypend.laws.learned import policy, save
 
     path = tmp_path / "mine.npz"
     save(policy("hehn2011"), path)

@@ -9,9 +9,8 @@ import pytest
 
 import flypend as fp
 from flypend.laws import Controller, Law, LawError
-from flypend.laws.learned import policy
+from flypend.laws.learned import policy, save
 from flypend.laws.own import fingerprint
-from flypend.laws.policy import save
 from flypend.settings.laws import absolute, law_from, law_named, note, relative, table_of
 
 VEHICLE = fp.vehicle("hehn2011")

@@ -87,15 +87,7 @@ def slow(value: Any) -> Any:
 
 
 class Paths:
-    """Flights of the inverted law from hanging starts of the worlds, on which training begins.
-
-    Parameters
-    ----------
-    worlds : DifferentiableWorlds
-        The worlds, of the task "swing_up".
-    count : int
-        Number of flights.
-    """
+    """`count` flights of the inverted law from hanging starts of "swing_up" `worlds`, on which training begins."""
 
     def __init__(self, worlds: DifferentiableWorlds, count: int = 128) -> None:
         vehicle, law = worlds.env.vehicle, fp.laws.inverted()

@@ -6,10 +6,8 @@ Lyapunov function, a reference or a frame, build a `Law` directly.
 
 from typing import Any
 
-from flypend.laws.almost_global import almost_global
-from flypend.laws.almost_global_lag import almost_global_lag
+from flypend.laws.almost_global import almost_global, almost_global_lag
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
-from flypend.laws.controller import Controller
 from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
@@ -17,7 +15,7 @@ from flypend.laws.learned import learned
 from flypend.laws.located import LawError
 from flypend.laws.lqr import lqr
 from flypend.laws.named import FACTORIES, law_from_dict, law_names
-from flypend.laws.own import from_function
+from flypend.laws.own import Controller, from_function
 from flypend.laws.repaired import repaired
 from flypend.laws.supervised import supervised
 from flypend.laws.theorem1 import corrected, printed

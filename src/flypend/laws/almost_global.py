@@ -7,31 +7,35 @@ The world has e₃ up. The bob p = x + l y is a thrust vehicle whose thrust axis
 A cascade of three: position → demand A on the bob → rod along A (Lemma S) → force F → thrust axis along F (Lemma S).
 V of all three falls along every solution; the closed loop has one equilibrium. The wrench is assumed to act as
 commanded, without limits: for rotors, see `inverted`.
+
+Theorem D is the same law through rotors with a known lag, by Lemma L (`laws.lag`): one more derivative, and a V' that
+falls along every solution.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 import casadi as ca
 
 from flypend import errors
+from flypend.errors import InputError
 from flypend.geometry import E3, Scalar, Vector, apply, cross, dot, norm, scale
-from flypend.laws.almost_global_bounds import theorem_b
-from flypend.laws.almost_global_gains import GAINS, axis_step, computer_of, demand_stays_upward, rod_step
-from flypend.laws.almost_global_position import damper, spring
+from flypend.laws.almost_global_bounds import theorem_b, theorem_d
+from flypend.laws.almost_global_gains import GAINS, axis_step, damper, demand_stays_upward, rod_step, spring
 from flypend.laws.axis import axis_moment, axis_rate
-from flypend.laws.bound import BoundLaw, Control, Guard
-from flypend.laws.gain import document_gains
+from flypend.laws.bound import COMPUTER, Control, Guard, computer_of
+from flypend.laws.certified import certified_set
+from flypend.laws.gain import document_gains, table
+from flypend.laws.lag import GAINS as LAG_GAINS
+from flypend.laws.lag import through_lag
 from flypend.laws.law import Law
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.step import Push, aim, push, share
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, lie_derivative
-
-if TYPE_CHECKING:
-    from flypend.laws.certified import CertifiedSet
 
 OUTSIDE = Guard(
     signal="domain",
@@ -41,55 +45,53 @@ OUTSIDE = Guard(
 
 
 @errors.named_arguments
-@document_gains(GAINS)
+@document_gains(
+    GAINS, "; and from `bind`, if the demand on the bob could point downward", ", with ten bounded derivatives"
+)
 def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     """Build the law of Theorem B about a `reference` for the pivot. V falls along every solution.
 
     Every start reaches the reference, except those with y = -d or z = -z_d, a set of measure zero on which the law is
     not defined. The law assumes that the wrench acts as commanded, without limits.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time, with ten bounded derivatives; default hover at the origin.
-        See `laws.references`.
-    **gains : float
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds; and from `bind`, if the demand on the bob could point downward.
     """
+    return _about(
+        reference, name="almost_global", gains=GAINS, given=gains, control=almost_global_control, computer=computer_of,
+        prepare=demand_stays_upward, theorem=theorem_b,
+    )  # fmt: skip
+
+
+LAGGED_GAINS = table((*(gain for gain in GAINS.values() if gain.name not in COMPUTER), *LAG_GAINS))
+
+
+@errors.named_arguments
+@document_gains(
+    LAGGED_GAINS,
+    "; from `bind`, if the demand on the bob could point downward, or the vehicle has no lag; and in another plant",
+    ", with eleven bounded derivatives",
+)
+def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law:
+    """Build the law of Theorem D about a `reference` for the pivot: `almost_global` through rotors that lag.
+
+    Every start reaches the reference, whatever the initial rotor forces, except those with y = -d or z = -z_d, as
+    without lag. The law assumes that all rotors have the lag of the vehicle, `rotor_lag`, and no limits, and that their
+    forces are known. So it flies in `flypend.Ideal(lag=True)`.
+    """
+    return _about(
+        reference, name="almost_global_lag", gains=LAGGED_GAINS, given=gains, control=_lagged_control,
+        uses_wrench=True, prepare=_prepare_lagged, theorem=theorem_d,
+    )  # fmt: skip
+
+
+def _about(reference: Reference | None, **own: Any) -> Law:
+    """Return a law about a `reference`; `own` are the fields in which the two differ."""
     followed = reference or hover()
-    return Law(
-        name="almost_global",
-        e3="up",
-        gains=GAINS,
-        given=gains,
-        control=almost_global_control,
-        guard=OUTSIDE,
-        computer=computer_of,
-        reference=followed,
-        path=carrying(followed),
-        prepare=demand_stays_upward,
-        theorem=theorem_b,
-        certify=certify,
-    )
+    return Law(e3="up", guard=OUTSIDE, reference=followed, path=carrying(followed), certify=certified_set, **own)
 
 
-def certify(law: BoundLaw) -> CertifiedSet:
-    """Return the largest set that is proved for the bound `law`."""
-    from flypend.laws.certified import certified_set  # it reads this law another way
-
-    return certified_set(law)
-
-
-def _least(rod: Scalar, axis: Scalar) -> Scalar:
-    """Return the lesser of 1 + c_y and 1 + c; where the first is 0, the second is not a number."""
-    return ca.if_else(rod < OUTSIDE.threshold, rod, ca.fmin(rod, axis))
+def _prepare_lagged(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:
+    if vehicle.rotor_lag <= 0:
+        raise InputError("vehicle.rotor_lag", "a lag > 0 s; without one, almost_global", f"{vehicle.rotor_lag:g} s")
+    return demand_stays_upward(vehicle, gains)
 
 
 class Outer(NamedTuple):
@@ -123,18 +125,27 @@ def almost_global_control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNa
     aimed = aim(z, z_d, turn, N, G, step)
     u: Push = push(z, axis_rate(state), aimed, lie_derivative(aimed.rate, state, rates, t), step)  # Lemma S
 
-    terms = (*outer.terms, u.potential, u.kinetic)
+    terms, apart = (*outer.terms, u.potential, u.kinetic), 1 + outer.cosine
     return Control(
         wrench=Wrench(f, axis_moment(state, vehicle, apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])),
         lyapunov={f"V_{i}": term for i, term in enumerate(terms, 1)},
         signals={
             "V_rate_claimed": outer.decay + u.decay,  # (B9)
-            "domain": _least(1 + outer.cosine, 1 + c),
+            # Where 1 + c_y is 0, c is not a number.
+            "domain": ca.if_else(apart < OUTSIDE.threshold, apart, ca.fmin(apart, 1 + c)),
             "rod_cosine": outer.cosine,
             "axis_cosine": c,
             "axis_error": norm(z - z_d),
         },
     )
+
+
+def _lagged_control(
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path, acting: Wrench
+) -> Control:
+    """Evaluate the law for symbols `t` (s), `state` and `acting`, with the gains `k` of `almost_global_lag`."""
+    wanted = almost_global_control(t, state, vehicle, k, path=path)
+    return through_lag(wanted, t, state, acting, vehicle, k)
 
 
 def _outer(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, path: Path) -> Outer:

@@ -16,7 +16,7 @@ import numpy as np
 
 from flypend.laws.almost_global_gains import axis_step, largest_descent, rod_step
 from flypend.laws.bound import BoundLaw
-from flypend.laws.covering import outside, signals_at
+from flypend.laws.closed_loop import outside, signals_at
 from flypend.laws.guarantee import IDEAL, LAGGED, Guarantee, least_distance, least_share, rate_bound, saturate
 from flypend.laws.step import Step
 from flypend.model import State, Vehicle
@@ -109,8 +109,8 @@ def steepest(law: BoundLaw) -> tuple[float, float, float]:
 
 def bob_bounds(V: float, k: SimpleNamespace, g: float) -> Bob:
     """Return the bounds on the outer loop while U + ½|v|² ≤ `V`, from the gains `k` and gravity `g`."""
-    level = _farthest(V, k.position_stiffness, k.position_reach)
-    upright = _farthest(V, k.height_stiffness, k.height_reach)
+    level = farthest(V, k.position_stiffness, k.position_reach)
+    upright = farthest(V, k.height_stiffness, k.height_reach)
     v, s = math.sqrt(2 * V), abs(k.shear)
     pull = saturate(k.position_stiffness, k.position_reach, level)
     lift = saturate(k.height_stiffness, k.height_reach, upright)
@@ -134,7 +134,7 @@ def slopes(k: SimpleNamespace) -> Slopes:
     )
 
 
-def _farthest(V: float, k: float, reach: float) -> float:
+def farthest(V: float, k: float, reach: float) -> float:
     """Return the error at which k L² (√(1 + r²/L²) − 1) = `V`."""
     return reach * math.sqrt((1 + V / (k * reach**2)) ** 2 - 1)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType, SimpleNamespace
 from typing import Any
@@ -79,6 +79,14 @@ class Computer:
         errors.number("force_limit", self.force_limit, at_least=0)
 
 
+COMPUTER = tuple(entry.name for entry in fields(Computer))
+
+
+def computer_of(gains: Mapping[str, Any]) -> Computer:
+    """Return the flight computer with the settings that are among `gains`."""
+    return Computer(**{name: gains[name] for name in COMPUTER if name in gains})
+
+
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Control:
@@ -100,14 +108,31 @@ class Control:
     signals: Mapping[str, Scalar] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Feedback(Tunable):
+    """What a law is, whether bound to a vehicle or not: see `Law`."""
+
+    name: str
+    e3: E3Direction
+    control: Callable[..., Control | Wrench]
+    uses_forces: bool = False
+    uses_wrench: bool = False
+    reference: Reference | None = None
+    path: Path | None = None
+    check: Callable[[Mapping[str, Any]], None] | None = None
+    fixed: tuple[str, ...] = ()
+    theorem: Callable[[BoundLaw, State], Guarantee] | None = None
+    certify: Callable[[BoundLaw], Any] | None = None
+
+
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
-class BoundLaw(Tunable):
+class BoundLaw(Feedback):
     """A law ready to fly: every gain has a value for one vehicle. Made by `Law.bind`.
 
     Parameters
     ----------
-    name, e3, control, uses_forces, uses_wrench, reference, path, check
+    name, e3, control, uses_forces, uses_wrench, reference, path, check, fixed, theorem, certify
         As in `Law`.
     vehicle : Vehicle
         The nominal vehicle.
@@ -121,10 +146,6 @@ class BoundLaw(Tunable):
         Where the law stops being defined.
     computer : Computer
         Lead, prediction and observer around the law in a sampled flight.
-    fixed : tuple of str
-        Gains that exported code holds as constants.
-    theorem, certify : callable, optional
-        As in `Law`.
     calmer : callable, optional
         `calmer(share)` returns the law with gains that, near its reference, are moved by `share` from the defaults to
         those that tremble least under noise (see `calmed`). None for a law without such gains.
@@ -134,23 +155,12 @@ class BoundLaw(Tunable):
         Whether `evaluate` keeps the wrench within what the rotors of `vehicle` give: see `limited`.
     """
 
-    name: str
-    e3: E3Direction
     vehicle: Vehicle
-    control: Callable[..., Control | Wrench]
     table: Mapping[str, Gain] = field(default_factory=dict)
     gains: Mapping[str, Any] = field(default_factory=dict)
     prepared: Mapping[str, Any] = field(default_factory=dict)
     guard: Guard | None = None
     computer: Computer = field(default_factory=Computer)
-    uses_forces: bool = False
-    uses_wrench: bool = False
-    reference: Reference | None = None
-    path: Path | None = None
-    fixed: tuple[str, ...] = ()
-    theorem: Callable[[BoundLaw, State], Guarantee] | None = None
-    certify: Callable[[BoundLaw], Any] | None = None
-    check: Callable[[Mapping[str, Any]], None] | None = None
     calmer: Callable[[float], BoundLaw] | None = None
     calm: float = 0.0
     within_limits: bool = False
@@ -224,10 +234,7 @@ class BoundLaw(Tunable):
 
         The law's theorem is about its own path, so the law returned has none.
         """
-        return None if self.path is None else self._along
-
-    def _along(self, path: Path) -> BoundLaw:
-        return replace(self, path=path, theorem=None, certify=None)
+        return None if self.path is None else lambda path: replace(self, path=path, theorem=None, certify=None)
 
     def evaluate(
         self,

@@ -32,6 +32,7 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -48,24 +49,24 @@ class NotProvedError(Exception):
     """The check fails; the message says where."""
 
 
+@dataclass(eq=False)
 class Polynomial:
     """P of degree 3: l (n,), Q (n, n) and T (n, n, n) are symmetric, None where they vanish."""
 
-    def __init__(self, a: float, l: Any = None, Q: Any = None, T: Any = None) -> None:
-        self.a, self.l, self.Q, self.T = a, l, Q, T
-        self._sizes: tuple[float, float, float] | None = None
+    a: float
+    l: Any = None
+    Q: Any = None
+    T: Any = None
 
     @property
     def constant(self) -> bool:
         """Whether P is a."""
         return self.l is None and self.Q is None and self.T is None
 
-    @property
+    @cached_property
     def sizes(self) -> tuple[float, float, float]:
         """Bounds on |l·x|, |x·Qx| and |T(x, x, x)| over the unit ball."""
-        if self._sizes is None:
-            self._sizes = _length(self.l), _spectral(self.Q), _length(self.T)
-        return self._sizes
+        return _length(self.l), _spectral(self.Q), _length(self.T)
 
     @property
     def spread(self) -> float:

@@ -18,24 +18,15 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
-from flypend.geometry import E3, Numbers, Scalar, cross, dot
-from flypend.laws.almost_global_bounds import stands
-from flypend.laws.almost_global_gains import COMPUTER
-from flypend.laws.bound import BoundLaw
-from flypend.laws.certificate import (
-    NotProvedError,
-    Polynomial,
-    evaluate_program,
-    lean,
-    outside,
-    radii,
-    ranges_of,
-    split,
-    touching,
-)
+from flypend.geometry import E3, Numbers, Scalar, cross, dot, hat
+from flypend.laws import certificate as checker
+from flypend.laws.almost_global_bounds import farthest, stands
+from flypend.laws.almost_global_gains import axis_step, rod_step
+from flypend.laws.bound import COMPUTER, BoundLaw
 from flypend.laws.chart import LAGGED, SIZE, law_at
 from flypend.laws.closed_loop import COMMANDS, WRENCH, symbolic_loop, wrench_in
-from flypend.laws.guarantee import list_unmodelled
+from flypend.laws.guarantee import least_distance, list_unmodelled
+from flypend.laws.step import Step
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.momenta import angular_acceleration
 from flypend.model.state import SIZE as PACKED
@@ -197,33 +188,31 @@ def _guess(found: dict[str, Any], most: float) -> float:
     """Return a c, at most `most`, at which the linear part of the forces uses `LINEAR` of the room at ω₃ = 0."""
     tiny, numbers = 1e-6 * most, found["numbers"]
     chart, k = chart_function(tuple(numbers)), list(numbers.values())
-    ends = np.diag(radii(numbers, tiny))  # so near that differences are the linear part
+    ends = np.diag(checker.radii(numbers, tiny))  # so near that differences are the linear part
     forth, back = (np.array([np.array(chart(xi, k)[0]).ravel() for xi in side]) for side in (ends, -ends))
     middle, slopes = (forth + back)[0] / 2, (forth - back).T / 2
-    models = [(Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
-    share = _largest(found, ranges_of(found, tiny, 0.0, split(models)))
+    models = [(checker.Polynomial(float(a), l), 0.0) for a, l in zip(middle, slopes, strict=True)]
+    share = _largest(found, checker.ranges_of(found, tiny, 0.0, checker.split(models)))
     return min(most, tiny * (LINEAR / share) ** 2)
 
 
 def _share(found: dict[str, Any], c: float) -> float:
     """Return the largest share of the room between hover and a limit that a rotor's force may use; ∞ if unbounded."""
     try:
-        answer = evaluate_program(found, c)
-    except NotProvedError:
+        answer = checker.evaluate_program(found, c)
+    except checker.NotProvedError:
         return math.inf
-    ranges = ranges_of(found, c, found["w"], answer)
+    ranges = checker.ranges_of(found, c, found["w"], answer)
     share = _largest(found, ranges)
-    return max(1.0 + 1e-9, share) if outside(found, ranges) or touching(found, lean(answer)) else share
+    refused = checker.outside(found, ranges) or checker.touching(found, checker.lean(answer))
+    return max(1.0 + 1e-9, share) if refused else share
 
 
 def _largest(found: dict[str, Any], ranges: list[tuple[float, float]]) -> float:
-    return max(_used(*forces, *found["limits"]) for forces in ranges)
-
-
-def _used(least: float, most: float, low: float, high: float) -> float:
-    """Return which share of the limits from `low` to `high` the forces from `least` to `most` use, N."""
-    middle, half = (least + most) / 2, (most - least) / 2
-    return half / min(middle - low, high - middle)
+    """Return which share of the room between a middle force and the limits the widest of the `ranges` uses."""
+    low, high = found["limits"]
+    used = [(most - least) / min(least + most - 2 * low, 2 * high - least - most) for least, most in ranges]
+    return float(max(used))
 
 
 def statement(law: BoundLaw) -> dict[str, Any]:
@@ -376,8 +365,7 @@ def _run(certificate: dict[str, Any], xi: Any, numbers: Any, sqrt: Callable[[Any
 def _state(place: NDArray[np.float64], z_dot: NDArray[np.float64], law: BoundLaw) -> State:
     """Return the state at a `place` of the chart, with the least heading and ω₃ = 0."""
     p, v, y, y_dot, z = place.reshape(5, 3)
-    across, l = np.cross(E3, z), law.vehicle.l
-    K = np.array([[0, -across[2], across[1]], [across[2], 0, -across[0]], [-across[1], across[0], 0]])
+    K, l = hat(cross(E3, z)), law.vehicle.l
     R = np.eye(3) + K + K @ K / (1 + z[2])
     assert law.reference is not None
     x_ref = np.array(ca.DM(law.reference(0.0))).ravel()
@@ -390,40 +378,28 @@ def _wrenches(asked: NDArray[np.float64], state: State, law: BoundLaw) -> list[N
     I, omega, lag = np.array(law.vehicle.I), state.omega, law.vehicle.rotor_lag
     gyroscopic = cross(omega, I @ omega)
     turns = [cross(E3, state.R.T @ u) for u in (asked[1:4], asked[5:8])[: 1 + law.uses_wrench]]
+    moments = [I @ turn + gyroscopic for turn in turns]
     if law.uses_wrench:
-        gyroscopic_rate = cross(turns[1], I @ omega) + cross(omega, I @ turns[1])
-        moments = [I @ turns[0] + gyroscopic + lag * gyroscopic_rate, I @ turns[1] + gyroscopic]
-        return [np.append(asked[4 * i], moment) for i, moment in enumerate(moments)]
-    return [np.append(asked[0], I @ turns[0] + gyroscopic)]
+        moments[0] += lag * (cross(turns[1], I @ omega) + cross(omega, I @ turns[1]))
+    return [np.append(asked[4 * i], moment) for i, moment in enumerate(moments)]
 
 
 def _extent(law: BoundLaw, c: float, w: float) -> dict[str, float]:
     k = SimpleNamespace(**law.gains)
 
-    def far(stiffness: float, reach: float) -> float:
-        return reach * math.sqrt((1 + c / (stiffness * reach**2)) ** 2 - 1)
+    def angle(step: Step) -> float:
+        return math.degrees(2 * math.acos(math.sqrt(least_distance(c, step) / 2)))  # 1 + cos φ = 2 cos²(φ/2)
 
-    def angle(weight: float, barrier: float) -> float:
-        low, high = 0.0, math.pi / 2  # Ψ(0) > 1 ≥ c/k
-        for _ in range(60):
-            middle = (low + high) / 2
-            cosine = math.cos(middle)
-            psi = (1 - barrier) * (1 - cosine) - 2 * barrier * math.log((1 + cosine) / 2)
-            low, high = (middle, high) if weight * psi <= c else (low, middle)
-        return math.degrees(low)
-
-    return {
-        "bob": far(k.position_stiffness, k.position_reach),
-        "height": far(k.height_stiffness, k.height_reach),
+    extent = {
+        "bob": farthest(c, k.position_stiffness, k.position_reach),
+        "height": farthest(c, k.height_stiffness, k.height_reach),
         "speed": math.sqrt(2 * c),
-        "rod": angle(k.rod_weight * k.rod_stiffness, k.rod_barrier),
-        "axis": angle(k.axis_weight * k.axis_stiffness, k.axis_barrier),
+        "rod": angle(rod_step(k)),
+        "axis": angle(axis_step(k)),
         "rod_rate": math.sqrt(2 * c / k.rod_weight),
         "axis_rate": math.sqrt(2 * c / k.axis_weight),
         "yaw_rate": w,
-        **(
-            {"thrust": math.sqrt(2 * c / k.thrust_weight), "acceleration": math.sqrt(2 * c / k.moment_weight)}
-            if law.uses_wrench
-            else {}
-        ),
     }
+    if law.uses_wrench:
+        extent |= {"thrust": math.sqrt(2 * c / k.thrust_weight), "acceleration": math.sqrt(2 * c / k.moment_weight)}
+    return extent

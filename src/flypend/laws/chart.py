@@ -23,9 +23,8 @@ from typing import NamedTuple
 import casadi as ca
 
 from flypend.geometry import E3, Scalar, Vector, cross, dot, scale, tangent_part
-from flypend.laws.almost_global_gains import axis_step, rod_step
-from flypend.laws.almost_global_position import damper, spring
-from flypend.laws.step import Step, share
+from flypend.laws.almost_global_gains import axis_step, damper, rod_step, spring
+from flypend.laws.step import barrier_slope, desired_velocity, share, steering
 
 SIZE, LAGGED = 14, 17  # coordinates without and through a lag
 
@@ -80,17 +79,17 @@ def law_at(
     size, d = A[2] * steep, ca.vertcat(slope, 1) / steep
     a_d = size * share(c_y, rod)  # (B4)
     fall = a_d * y - g * E3
-    ideal = _Known((p, v), (v, fall), (y, y_dot), *_pointing(d, y, y_dot, c_y, e_y, _Known((p, v), (v, fall))))
-    d_dot = _Known((p, v), (v, fall)).rate(d)
-    r_y = cross(cross(d, d_dot), y) + _desired_velocity(y, c_y, e_y, size, v, rod)  # (S1)
-    u_d = _force(y, ideal.rate(r_y), c_y, e_y, zeta_y, rod)  # (S3)
+    falling = _Known((p, v), (v, fall))
+    ideal = falling.and_((y, y_dot), *_pointing(d, y, y_dot, c_y, e_y, falling))
+    r_y = cross(cross(d, falling.rate(d)), y) + desired_velocity(y, c_y, e_y, size, v, rod)  # (S1)
+    u_d = steering(y, ideal.rate(r_y), c_y, e_y, zeta_y, rod)  # (S3)
 
     # ∂V_3/∂v at fixed p, y and ẏ, by c_y = y·d(v) and e_y = d − c_y y.
     d_v = ca.jacobian(d, v)
     c_v = ca.mtimes(d_v.T, y)
     r_v = ca.jacobian(r_y, v) + ca.mtimes(ca.jacobian(r_y, c_y), c_v.T)
     r_v += ca.mtimes(ca.jacobian(r_y, e_y), d_v - ca.mtimes(y, c_v.T))
-    along_v = v - rod.weight * rod.stiffness * _slope(c_y, rod) * c_v - rod.weight * ca.mtimes(r_v.T, zeta_y)
+    along_v = v - rod.weight * rod.stiffness * barrier_slope(c_y, rod) * c_v - rod.weight * ca.mtimes(r_v.T, zeta_y)
 
     # Force. F·y > 0: divided by it likewise.
     carried = (M + m) * a_d + M * l * dot(y_dot, y_dot)  # (B6)
@@ -118,8 +117,8 @@ def law_at(
         return moving(forth - M * l * spin / (M + m) * y - g * E3, round_ - spin * y)
 
     true, whole = flown(f)
-    r = cross(cross(z_d, true.rate(z_d)), z) + _desired_velocity(z, c, e, N, G, axis)
-    u = _force(z, whole.rate(r), c, e, zeta, axis)
+    r = cross(cross(z_d, true.rate(z_d)), z) + desired_velocity(z, c, e, N, G, axis)
+    u = steering(z, whole.rate(r), c, e, zeta, axis)
     wrenches, off_f, off_u = [ca.vertcat(f, u)], ca.SX.sym("eta_f"), ca.SX.sym("eta_u", 3)
     if lag is not None:
         f_a, u_a = ca.SX.sym("f_a"), ca.SX.sym("u_a", 3)
@@ -131,7 +130,7 @@ def law_at(
         gamma_f = dot(v, kick[0]) + rod.weight * dot(zeta_y, kicked.rate(zeta_y))
         gamma_f -= axis.weight * dot(zeta, kicked.rate(r))
         for cosine, step in ((c_y, rod), (c, axis)):
-            gamma_f -= step.weight * step.stiffness * _slope(cosine, step) * kicked.rate(cosine)
+            gamma_f -= step.weight * step.stiffness * barrier_slope(cosine, step) * kicked.rate(cosine)
         f_next = acted.rate(f) - k.wrench_damping * off_f - gamma_f / k.thrust_weight
         u_next = tangent_part(z, acted.rate(u)) - k.wrench_damping * off_u - axis.weight / k.moment_weight * zeta
         wrenches = [ca.vertcat(f_a + lag * f_next, u_a + lag * u_next), ca.vertcat(f_a, u_a)]  # (D1)
@@ -167,24 +166,6 @@ def _pointing(
     moving = known.rate(target)
     c_dot = dot(e, phi_dot - cross(cross(target, moving), phi))
     return (c, c_dot), (e, moving - c_dot * phi - c * phi_dot)
-
-
-def _desired_velocity(phi: Vector, c: Scalar, e: Vector, force: Scalar, gradient: Vector, step: Step) -> Vector:
-    """Return v_*, (S1)."""
-    weak = step.weight * step.stiffness * ((1 - step.barrier) * (1 + c) + 2 * step.barrier)
-    return step.alignment * e + force / weak * (
-        step.fade * dot(gradient, phi) * e - (1 + c) * tangent_part(phi, gradient)
-    )
-
-
-def _slope(c: Scalar, step: Step) -> Scalar:
-    """Return g(c) = −Ψ'(c)."""
-    return (1 - step.barrier) + 2 * step.barrier / (1 + c)
-
-
-def _force(phi: Vector, feedforward: Vector, c: Scalar, e: Vector, zeta: Vector, step: Step) -> Vector:
-    """Return u, (S3)."""
-    return tangent_part(phi, feedforward) + step.stiffness * _slope(c, step) * e - step.damping * zeta
 
 
 def _turn(n: Vector, w: Vector) -> Vector:

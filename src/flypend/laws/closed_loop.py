@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import casadi as ca
+import numpy as np
 
 from flypend import errors
 from flypend.geometry import Numbers, Scalar
 from flypend.laws.bound import BoundLaw, Control
+from flypend.laws.guarantee import Guarantee
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion
 from flypend.model.state import SIZE
@@ -80,17 +83,14 @@ def symbolic_loop(
 def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool) -> SymbolicLoop:
     """The equations of motion under `bound`, with its signals and the rates of its Lyapunov functions."""
     t, s, p, control = _output(vehicle, bound, parameters, lag)
-    state, acting, extra = State.symbolic(s), control.wrench, {}
+    acting, command, commands = wrench_in(s) if lag else control.wrench, _stack(control.wrench), {}
+    rates = equations_of_motion(State.symbolic(s), acting, vehicle, bound.e3).packed()
     if lag:
-        acting, command = wrench_in(s), control.wrench
-        extra = dict(zip(COMMANDS, _stack(command), strict=True))
-    rates = equations_of_motion(state, acting, vehicle, bound.e3).packed()
-    if lag:
-        behind = (ca.vertcat(*_stack(command)) - s[SIZE:]) / vehicle.rotor_lag
-        rates = ca.vertcat(rates, behind)
+        commands = dict(zip(COMMANDS, ca.vertsplit(command), strict=True))
+        rates = ca.vertcat(rates, (command - s[SIZE:]) / vehicle.rotor_lag)
     lyapunov, flow = _lyapunov(control), (ca.vertcat(s, t), ca.vertcat(rates, 1))
-    derived = {_rate(name): ca.jtimes(value, *flow) for name, value in lyapunov.items()}
-    signals = {**lyapunov, **derived, **control.signals, **extra}
+    derived = {f"{name}_rate": ca.jtimes(value, *flow) for name, value in lyapunov.items()}
+    signals = {**lyapunov, **derived, **control.signals, **commands}
     return SymbolicLoop(t, s, p, ca.densify(rates), acting, signals, parameters)
 
 
@@ -99,17 +99,13 @@ def wrench_in(s: Numbers) -> Wrench:
     return Wrench(s[SIZE], s[SIZE + 1 :])
 
 
-def _stack(wrench: Wrench) -> list[Scalar]:
-    return ca.vertsplit(ca.densify(ca.vertcat(wrench.thrust, wrench.moment)))  # type: ignore[no-any-return]
+def _stack(wrench: Wrench) -> Numbers:
+    return ca.densify(ca.vertcat(wrench.thrust, wrench.moment))
 
 
 def _lyapunov(control: Control) -> dict[str, Scalar]:
     """Return the Lyapunov functions of a law by name, and their sum V if there are any."""
     return dict(control.lyapunov) | ({"V": sum(control.lyapunov.values())} if control.lyapunov else {})
-
-
-def _rate(name: str) -> str:
-    return f"{name}_rate"
 
 
 @lru_cache(maxsize=8)
@@ -121,7 +117,7 @@ def _output(
     gains = {name: p[i] for i, name in enumerate(parameters)}
     acting = wrench_in(s) if lag else None
     control = bound.evaluate(t, State.symbolic(s), vehicle, gains=gains, acting=acting)
-    check_parameters(bound.name, ca.vertcat(control.wrench.thrust, control.wrench.moment), parameters, p)
+    check_parameters(bound.name, _stack(control.wrench), parameters, p)
     return t, s, p, control
 
 
@@ -142,7 +138,7 @@ def signal_names(vehicle: Vehicle, law: Law | BoundLaw) -> tuple[str, ...]:
     """Return the names of the signals of `law`, as in `SymbolicLoop.signals`, without deriving a rate."""
     *_, control = _output(vehicle, *_check(vehicle, law, ()))
     lyapunov = _lyapunov(control)
-    return tuple(dict.fromkeys((*lyapunov, *map(_rate, lyapunov), *control.signals)))
+    return tuple(dict.fromkeys((*lyapunov, *(f"{name}_rate" for name in lyapunov), *control.signals)))
 
 
 def _check(vehicle: Vehicle, law: Law | BoundLaw, parameters: Sequence[str]) -> tuple[BoundLaw, tuple[str, ...]]:
@@ -171,7 +167,7 @@ def close_loop(vehicle: Vehicle, law: Law | BoundLaw, *, lag: bool = False) -> C
 @lru_cache(maxsize=8)  # what a theorem says of each of many starts takes the same
 def _close_loop(vehicle: Vehicle, bound: BoundLaw, lag: bool) -> ClosedLoop:
     loop = symbolic_loop(vehicle, bound, lag=lag)
-    outputs = ca.vertcat(loop.wrench.thrust, loop.wrench.moment, *loop.signals.values())
+    outputs = ca.vertcat(_stack(loop.wrench), *loop.signals.values())
     rates, outputs = ca.cse([loop.rates, ca.densify(outputs)])
     return ClosedLoop(
         vehicle=vehicle,
@@ -180,3 +176,31 @@ def _close_loop(vehicle: Vehicle, bound: BoundLaw, lag: bool) -> ClosedLoop:
         outputs=ca.Function("outputs", [loop.t, loop.s], [outputs], ["t", "s"], ["outputs"]),
         signal_names=tuple(loop.signals),
     )
+
+
+def signals_at(law: BoundLaw, start: State) -> Mapping[str, float]:
+    """Return the signals of `law` at time 0 at a single `start`, in the law's frame. Raises InputError for a batch.
+
+    A law that takes the wrench that acts gets that of rotors at their minimum.
+    """
+    if start.batch_shape:
+        raise errors.InputError("start", "a single state", f"a batch of shape {start.batch_shape}")
+    loop, packed, vehicle = close_loop(law.vehicle, law, lag=law.uses_wrench), start.packed(), law.vehicle
+    if law.uses_wrench:
+        idle = vehicle.mixing() @ np.full(len(vehicle.rotor_spins), vehicle.rotor_limits[0])
+        packed = np.concatenate([packed, idle])
+    with np.errstate(all="ignore"):
+        values = np.array(loop.outputs(0.0, packed)).ravel()[WRENCH:]
+    return dict(zip(loop.signal_names, values.tolist(), strict=True))
+
+
+def outside(law: BoundLaw, found: Mapping[str, float], sets: Mapping[str, str]) -> Guarantee | None:
+    """Return the guarantee of a start on an exceptional set; None for one in the domain.
+
+    `sets` maps the signal whose value −1 marks a set to its equation; `found` are the signals at the start.
+    """
+    assert law.guard is not None
+    for signal, equation in sets.items():
+        if not 1 + found[signal] > law.guard.threshold:
+            return Guarantee(covered=False, reason=f"outside the domain: {equation}", V=math.inf)
+    return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -139,6 +140,12 @@ class Tunable:
         return self.table[name].check_all(values, f"{prefix}.{name}".lstrip("."))
 
 
+def check_gravity(vehicle: Vehicle, pose: str = "is inverted") -> None:
+    """Raise InputError for a `vehicle` without gravity, for which no `pose` is one."""
+    if vehicle.gravity == 0:
+        raise errors.InputError("vehicle.gravity", f"gravity > 0, without which no pose {pose}", "0 m/s²")
+
+
 def is_number(value: object) -> bool:
     """Whether `value` is a real number; booleans do not count."""
     return isinstance(value, Real) and not isinstance(value, bool)
@@ -164,35 +171,40 @@ def check_gains(gains: Mapping[str, Gain], given: Mapping[str, Any], name: str =
     return {key: gains[key].check(value, f"{name}.{key}".lstrip(".")) for key, value in given.items()}
 
 
-# What is said of a law that takes nothing but gains.
-ONLY_GAINS = """
+# What is said of the arguments of a law whose docstring says nothing of its own.
+ARGUMENTS = """
 
-    Parameters
-    ----------
-    **gains : float or str
-        Any of the gains below, in the stated unit.
+Parameters
+----------{reference}
+**gains : float or str
+    Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
 
-    {gains}
+{{gains}}
 
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds.
-    """
+Raises
+------
+InputError
+    If a gain is unknown or out of bounds{more}.
+"""
+REFERENCE = """
+reference : callable, optional
+    Pivot position (3,), m, as a CasADi function of time{smooth}; default hover at the origin.
+    See `laws.references`."""
 
 
-def document_gains(gains: Mapping[str, Gain]) -> Callable[[F], F]:
-    """Return a decorator that replaces the line {gains} of a docstring by the table `gains`.
+def document_gains(gains: Mapping[str, Gain], more: str = "", smooth: str = "") -> Callable[[F], F]:
+    """Return a decorator that replaces {gains} in a docstring by the table `gains`.
 
-    A docstring without this line gets all of `ONLY_GAINS`.
+    A docstring without this line gets all of `ARGUMENTS`, with `more` mistakes that raise InputError, and how `smooth`
+    a reference has to be.
     """
 
     def fill(function: F) -> F:
-        lines, text = [], function.__doc__ or ""
-        for line in (text if "{gains}" in text else text.rstrip() + ONLY_GAINS).split("\n"):
-            indent = line[: len(line) - len(line.lstrip())]
-            lines += [f"{indent}{entry}" for entry in _entries(gains)] if line.strip() == "{gains}" else [line]
-        function.__doc__ = "\n".join(lines)
+        text = inspect.getdoc(function) or ""
+        if "{gains}" not in text:
+            takes_reference = "reference" in inspect.signature(function).parameters
+            text += ARGUMENTS.format(reference=REFERENCE.format(smooth=smooth) if takes_reference else "", more=more)
+        function.__doc__ = text.replace("{gains}", "\n".join(_entries(gains)))
         return function
 
     return fill

@@ -22,17 +22,16 @@ import casadi as ca
 
 from flypend import errors
 from flypend.geometry import E1, E3, Scalar, Vector, apply, cross, dot, norm, scale, smooth_norm, tangent_part
-from flypend.laws.axis import axis_moment
-from flypend.laws.bound import Control
+from flypend.laws.axis import DAMPING, axis_moment, braking, leading, spin_of
+from flypend.laws.bound import Control, computer_of
 from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
 from flypend.laws.gain import document_gains
-from flypend.laws.inverted_gains import GAINS, angular_authority, calm, computer_of, go_together, scales
+from flypend.laws.inverted_gains import GAINS, angular_authority, calm, go_together, scales
 from flypend.laws.law import Law
 from flypend.laws.passage import FREE, Passage, heading, passage_of, steer
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.smooth import soft
 from flypend.laws.sphere import ANTIPODE_FLOOR, velocity_error
-from flypend.laws.spinning import DAMPING, braking, leading, spin_of
 from flypend.laws.throw import (
     Bob,
     Demand,
@@ -72,39 +71,14 @@ SPIN_LAG = 1.3
 
 
 @errors.named_arguments
-@document_gains(GAINS)
+@document_gains(GAINS, "; and from `bind`, if the bandwidths are not separated")
 def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
-    """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
-    **gains : float or str
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds; and from `bind`, if the bandwidths are not separated.
-    """
+    """Build the inverted law about a `reference` for the pivot. Gains not given follow from the vehicle."""
     followed = reference or hover()
     return Law(
-        name="inverted",
-        e3="up",
-        gains=GAINS,
-        given=gains,
-        control=inverted_control,
-        computer=computer_of,
-        uses_forces=True,
-        reference=followed,
-        path=carrying(followed),
-        check=go_together,
-        prepare=_prepare,
-        calm=calm,
-    )
+        name="inverted", e3="up", gains=GAINS, given=gains, control=inverted_control, computer=computer_of,
+        uses_forces=True, reference=followed, path=carrying(followed), check=go_together, prepare=_prepare, calm=calm,
+    )  # fmt: skip
 
 
 def nearness(state: State, x_dot_ref: Vector, y_ref: Vector, vehicle: Vehicle) -> Scalar:
@@ -161,13 +135,7 @@ def _prepare(vehicle: Vehicle, gains: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def inverted_control(
-    t: Scalar,
-    state: State,
-    vehicle: Vehicle,
-    k: SimpleNamespace,
-    forces: tuple[Vector, Vector],
-    *,
-    path: Path,
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector], *, path: Path
 ) -> Control:
     """Evaluate the law for symbols `t` (s) and `state`, with the gains `k` of `inverted`.
 
@@ -187,12 +155,7 @@ def inverted_control(
 
 
 def _cascade(
-    t: Scalar,
-    state: State,
-    vehicle: Vehicle,
-    k: SimpleNamespace,
-    forces: tuple[Vector, Vector],
-    path: Path,
+    t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, forces: tuple[Vector, Vector], path: Path
 ) -> Control:
     """Evaluate the law as `inverted_control` does, with gains that are the same everywhere."""
     x_ref, p_ref, y_ref = path(t, vehicle, forces[1])
@@ -230,6 +193,10 @@ def _cascade(
     def axis(turned: Vector) -> Vector:
         return lift(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)
 
+    def rate(wanted: Vector) -> Vector:
+        found = lie_derivative(wanted, state, rates, t)
+        return found + along(wanted, ideal[1]) if ideal else found
+
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
         bob = bob_at(ahead, path_ahead)
@@ -237,15 +204,11 @@ def _cascade(
         held = Demand(*(ca.SX.sym(name, 3) for name in Demand._fields))
         wanted = axis(path_ahead.force + steering_force(held, bob.v[2], ahead, pose, forces, vehicle, k))
         turning = ca.vertcat(held.A_dot, cross(held.omega_d, held.d))
-        wanted_dot = lie_derivative(wanted, state, rates, t) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
-        if ideal:
-            wanted_dot += along(wanted, ideal[1])
+        wanted_dot = rate(wanted) + ca.jtimes(wanted, ca.vertcat(held.A, held.d), turning)
         wanted, wanted_dot = ca.substitute([wanted, ca.densify(wanted_dot)], list(held), list(wish))
     else:
         wanted = axis(force(ahead, path_ahead, pose))
-        wanted_dot = lie_derivative(wanted, state, rates, t)
-        if ideal:
-            wanted_dot += along(wanted, ideal[1])
+        wanted_dot = rate(wanted)
     f, wanted, wanted_dot = ca.substitute([f, wanted, ca.densify(wanted_dot)], [clear], [calm * steering.clear])
     wanted, wanted_dot = calm * wanted + brake, calm * wanted_dot
     per_length = 1 / smooth_norm(wanted, AXIS_FLOOR * vehicle.weight)

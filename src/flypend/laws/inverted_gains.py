@@ -12,8 +12,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.errors import InputError
-from flypend.laws.bound import Computer
-from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, table
+from flypend.laws.gain import ANY, DELAY_REACH, NOT_NEGATIVE, POSITIVE, SHARE, Bounds, Gain, check_gravity, table
 from flypend.model import Vehicle
 
 # Bandwidth of a loop over that of the one around it: at least this, or the law refuses to be built.
@@ -120,8 +119,7 @@ class Scales(NamedTuple):
 @lru_cache(maxsize=256)
 def scales(vehicle: Vehicle) -> Scales:
     """Return the scales of `vehicle`, from its rod, inertia, and rotor limits and lag."""
-    if vehicle.gravity == 0:
-        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+    check_gravity(vehicle)
     authority = angular_authority(vehicle)
     return Scales(
         time=np.sqrt(vehicle.l / vehicle.g),
@@ -172,56 +170,49 @@ def calm(vehicle: Vehicle, share: float) -> dict[str, float]:
     return found
 
 
-def _number(name: str) -> Callable[[Vehicle], float]:
-    return lambda vehicle: scales(vehicle).numbers[name]
+# What a number without dimension is in the vehicle's own units.
+UNITS: Mapping[str, Callable[[float, Scales], float]] = MappingProxyType(
+    {
+        "": lambda number, s: number, "rad": lambda number, s: number, "s": lambda number, s: number * s.time,
+        "1/s": lambda number, s: number / s.time, "rad/s": lambda number, s: number / s.time,
+        "m/s": lambda number, s: number * s.speed,
+    }
+)  # fmt: skip
 
 
-def _per_time(name: str) -> Callable[[Vehicle], float]:
-    return lambda vehicle: scales(vehicle).numbers[name] / scales(vehicle).time
+def _gain(name: str, unit: str, doc: str, bounds: Bounds = ANY, label: str = "", *, fixed: bool = False) -> Gain:
+    """Return the gain `name`, whose default is the vehicle's number of that name in its own `unit`."""
 
+    def value(vehicle: Vehicle) -> float:
+        s = scales(vehicle)
+        return UNITS[unit](s.numbers[name], s)
 
-def _speed(name: str) -> Callable[[Vehicle], float]:
-    return lambda vehicle: scales(vehicle).numbers[name] * scales(vehicle).speed
+    return Gain(name, value, unit, doc, bounds, label=label, fixed=fixed)
 
 
 ANGLE = Bounds(0.0, math.pi, open_low=True)
 
 GAINS = table(
     (
-        Gain(
-            "position_bandwidth", _per_time("position_bandwidth"), "rad/s",
-            "Natural frequency of the bob's horizontal position loop", POSITIVE, label="position",
+        _gain(
+            "position_bandwidth", "rad/s", "Natural frequency of the bob's horizontal position loop", POSITIVE,
+            "position",
         ),
-        Gain(
-            "position_damping", _number("position_damping"), "", "Damping ratio of the bob's position and height loops",
-            POSITIVE,
-        ),
-        Gain(
-            "height_bandwidth", _per_time("height_bandwidth"), "rad/s",
-            "Natural frequency of the bob's height loop", POSITIVE, label="height",
-        ),
+        _gain("position_damping", "", "Damping ratio of the bob's position and height loops", POSITIVE),
+        _gain("height_bandwidth", "rad/s", "Natural frequency of the bob's height loop", POSITIVE, "height"),
         Gain(
             "descent_limit", lambda v: scales(v).numbers["descent"] * v.g, "m/s²",
             "Largest downward acceleration demanded of the bob; below g, it alone cannot flip the rod's target",
             POSITIVE,
         ),
-        Gain(
-            "rod_bandwidth", _rod_bandwidth, "rad/s", "Natural frequency of the rod on S²", POSITIVE,
-            label="rod",
-        ),
-        Gain("rod_damping", _number("rod_damping"), "", "Damping ratio of the rod", POSITIVE, label="rod damping"),
+        Gain("rod_bandwidth", _rod_bandwidth, "rad/s", "Natural frequency of the rod on S²", POSITIVE, label="rod"),
+        _gain("rod_damping", "", "Damping ratio of the rod", POSITIVE, "rod damping"),
         Gain(
             "attitude_bandwidth", _attitude_bandwidth, "rad/s", "Natural frequency of the thrust axis on S²", POSITIVE,
             label="attitude",
         ),
-        Gain(
-            "attitude_damping", _number("attitude_damping"), "", "Damping ratio of the thrust axis on S²", POSITIVE,
-            label="attitude damping",
-        ),
-        Gain(
-            "tilt_limit", _number("tilt_limit"), "rad",
-            "Largest commanded tilt of the thrust axis from e₃; near π for no limit", ANGLE,
-        ),
+        _gain("attitude_damping", "", "Damping ratio of the thrust axis on S²", POSITIVE, "attitude damping"),
+        _gain("tilt_limit", "rad", "Largest commanded tilt of the thrust axis from e₃; near π for no limit", ANGLE),
         Gain(
             "rate_feedforward",
             lambda v: min(scales(v).numbers["rate_feedforward"], FEEDFORWARD * scales(v).agility), "",
@@ -232,34 +223,27 @@ GAINS = table(
             "The desired thrust axis is computed for the rod predicted this far ahead; the thrust, for 1 - pump_share "
             "of this time", POSITIVE, label="look ahead",
         ),
-        Gain(
-            "throw_speed", _speed("throw_speed"), "m/s", "Upward speed demanded of the bob while the rod hangs",
-            NOT_NEGATIVE, label="throw speed",
+        _gain(
+            "throw_speed", "m/s", "Upward speed demanded of the bob while the rod hangs", NOT_NEGATIVE, "throw speed"
         ),
-        Gain(
-            "flip_speed", _speed("flip_speed"), "m/s",
+        _gain(
+            "flip_speed", "m/s",
             "The rod may flip once v + flip_by_height · h + flip_by_rod · y₃ exceeds this; v (m/s) is the bob's "
             "upward speed, h (m) the pivot's height above its reference",
         ),
-        Gain("flip_by_rod", _speed("flip_by_rod"), "m/s", "Weight of the rod's height y₃ in flip_speed's sum"),
-        Gain("flip_by_height", _per_time("flip_by_height"), "1/s", "Weight of the pivot's height in flip_speed's sum"),
-        Gain(
-            "hanging_share", _number("hanging_share"), "",
-            "Share of the rod stiffness that holds the rod hanging until it may flip", SHARE,
-        ),
-        Gain(
-            "pump_share", _number("pump_share"), "",
+        _gain("flip_by_rod", "m/s", "Weight of the rod's height y₃ in flip_speed's sum"),
+        _gain("flip_by_height", "1/s", "Weight of the pivot's height in flip_speed's sum"),
+        _gain("hanging_share", "", "Share of the rod stiffness that holds the rod hanging until it may flip", SHARE),
+        _gain(
+            "pump_share", "",
             "Share of energy-based swing-up while the rod is low: 1 for a vehicle too slow to throw and flip, else 0",
             SHARE, fixed=True,
         ),
-        Gain(
-            "catch_time", lambda v: scales(v).numbers["catch_time"] * scales(v).time, "s",
-            "The rod can be caught if it leans little after coasting for this time", NOT_NEGATIVE,
-        ),
-        Gain("catch_within", _number("catch_within"), "", "Lean 1 - y3 up to which the rod can be caught", POSITIVE),
-        Gain("catch_width", _number("catch_width"), "", "Range of the lean over which it becomes too low", POSITIVE),
-        Gain("catch_by_axis", _number("catch_by_axis"), "", "Weight of the thrust axis in that lean"),
-        Gain("yaw_damping", _number("yaw_damping"), "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
+        _gain("catch_time", "s", "The rod can be caught if it leans little after coasting for this time", NOT_NEGATIVE),
+        _gain("catch_within", "", "Lean 1 - y3 up to which the rod can be caught", POSITIVE),
+        _gain("catch_width", "", "Range of the lean over which it becomes too low", POSITIVE),
+        _gain("catch_by_axis", "", "Weight of the thrust axis in that lean"),
+        Gain("yaw_damping", lambda v: scales(v).numbers["yaw_damping"], "1/s", "Decay of the yaw rate", NOT_NEGATIVE),
         Gain(
             "lead", lambda v: scales(v).numbers["lead"] if v.rotor_lag > 0 else 1.0, "",
             "Rotors are commanded f̂ + lead (f − f̂), where f̂ is their modelled force", Bounds(low=1.0),
@@ -291,9 +275,3 @@ def go_together(gains: Mapping[str, Any]) -> None:
                 "the rotor_lag of the vehicle, default rod_bandwidth rises with √(gravity / rod_length))",
                 f"{inner:.3g} rad/s",
             )
-
-
-def computer_of(gains: Mapping[str, Any]) -> Computer:
-    """Return the flight computer settings for these `gains`."""
-    names = ("lead", "latency", "delay_reach", "observer")
-    return Computer(**{name: gains[name] for name in names})

@@ -25,12 +25,6 @@ from flypend.laws.bound import Control
 from flypend.laws.gain import POSITIVE, Bounds, Gain
 from flypend.laws.law import Law
 from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_derivative
-from flypend.model.state import E3Direction
-
-
-def _weight_of_thrust(vehicle: Vehicle) -> float:
-    return float(11.0 * vehicle.l * vehicle.g / vehicle.weight**2)
-
 
 # V is an energy over the mass: l g is its unit, √(l/g) that of time.
 GAINS = (
@@ -38,7 +32,10 @@ GAINS = (
         "wrench_damping", lambda vehicle: float(4.8 * (vehicle.g / vehicle.l) ** 0.5), "1/s",
         "κ: decay of the wrench's error", POSITIVE,
     ),
-    Gain("thrust_weight", _weight_of_thrust, "m²/(s² N²)", "Weight of the thrust's error in V'", POSITIVE),
+    Gain(
+        "thrust_weight", lambda vehicle: float(11.0 * vehicle.l * vehicle.g / vehicle.weight**2), "m²/(s² N²)",
+        "Weight of the thrust's error in V'", POSITIVE,
+    ),
     Gain(
         "moment_weight", lambda vehicle: float(0.54 * vehicle.l**3 / vehicle.g), "m² s²",
         "Weight of the error of I⁻¹ times the moment in V'", POSITIVE,
@@ -47,9 +44,9 @@ GAINS = (
 
 
 def through_lag(
-    wanted: Control, t: Scalar, state: State, acting: Wrench, vehicle: Vehicle, k: SimpleNamespace, e3: E3Direction
+    wanted: Control, t: Scalar, state: State, acting: Wrench, vehicle: Vehicle, k: SimpleNamespace
 ) -> Control:
-    """Return the law (D1) around `wanted`, whose V falls at its signal `V_rate_claimed` if its wrench acts.
+    """Return the law (D1) around `wanted`, e₃ up, whose V falls at its signal `V_rate_claimed` if its wrench acts.
 
     W weighs the error of the thrust by `k.thrust_weight` and that of I⁻¹ times the moment by `k.moment_weight`. So
     W⁻¹ Γ is, in thrust and I⁻¹ moment, Γ over each of them.
@@ -64,19 +61,16 @@ def through_lag(
         Source of the inertia and of the lag T.
     k : SimpleNamespace
         Gains of `GAINS`.
-    e3 : "up" or "down"
-        Frame of the law.
     """
-    body = vehicle.in_frame(e3)
-    rates = equations_of_motion(state, acting, vehicle, e3)
+    rates = equations_of_motion(state, acting, vehicle, "up")
     f, tau = acting.thrust, acting.moment
     f_error = f - wanted.wrench.thrust
-    alpha_error = apply(body.I_inv, tau - wanted.wrench.moment)
+    alpha_error = apply(vehicle.I_inv, tau - wanted.wrench.moment)
 
     # Γ for thrust and moment, then for thrust and α = I⁻¹ τ: Γ_α = I Γ_τ.
     gradient = ca.gradient(sum(wanted.lyapunov.values()), state.packed())
     push = ca.jtimes(rates.packed(), ca.vertcat(f, tau), gradient, True)
-    push_f, push_alpha = push[0], apply(body.I, push[1:])
+    push_f, push_alpha = push[0], apply(vehicle.I, push[1:])
 
     f_rate = lie_derivative(wanted.wrench.thrust, state, rates, t)
     tau_rate = lie_derivative(wanted.wrench.moment, state, rates, t)
@@ -87,7 +81,7 @@ def through_lag(
     thrust_term, moment_term = k.thrust_weight * f_error**2 / 2, k.moment_weight * dot(alpha_error, alpha_error) / 2
     known = len(wanted.lyapunov)
     return Control(
-        wrench=Wrench(f + T * f_next, tau + scale(T, tau_rate + apply(body.I, alpha_next))),  # (D1)
+        wrench=Wrench(f + T * f_next, tau + scale(T, tau_rate + apply(vehicle.I, alpha_next))),  # (D1)
         lyapunov={**wanted.lyapunov, f"V_{known + 1}": thrust_term, f"V_{known + 2}": moment_term},
         signals={
             **wanted.signals,

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
 from typing import Any
 
 from flypend import errors
-from flypend.laws.bound import BoundLaw, Computer, Control, Guard
-from flypend.laws.gain import Gain, Tunable, check_gains, table
-from flypend.laws.guarantee import Guarantee
+from flypend.laws.bound import BoundLaw, Computer, Feedback, Guard
+from flypend.laws.gain import Gain, check_gains, table
 from flypend.laws.located import is_own
-from flypend.laws.references import Path, Reference, check_reference
-from flypend.model import State, Vehicle, Wrench
-from flypend.model.state import E3Direction
+from flypend.laws.references import check_reference
+from flypend.model import Vehicle
 
 Values = Mapping[str, Any]
 
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Law(Tunable):
+class Law(Feedback):
     """A symbolic state feedback with open gains.
 
     Parameters
@@ -68,22 +65,11 @@ class Law(Tunable):
         from noisy readings; `share` 0 means the defaults, 1 the calmest. None for a law without such gains.
     """
 
-    name: str
-    e3: E3Direction
-    control: Callable[..., Control | Wrench]
     gains: Any = field(default_factory=dict)
     given: Values = field(default_factory=dict)
     guard: Guard | Callable[[Values], Guard | None] | None = None
     computer: Computer | Callable[[Values], Computer] = field(default_factory=Computer)
-    uses_forces: bool = False
-    uses_wrench: bool = False
-    reference: Reference | None = None
-    path: Path | None = None
     prepare: Callable[[Vehicle, Values], Values] | None = None
-    check: Callable[[Values], None] | None = None
-    fixed: tuple[str, ...] = ()
-    theorem: Callable[[BoundLaw, State], Guarantee] | None = None
-    certify: Callable[[BoundLaw], Any] | None = None
     calm: Callable[[Vehicle, float], Values] | None = None
     _bound: dict[Vehicle, BoundLaw] = field(default_factory=dict, init=False, repr=False)
 
@@ -151,40 +137,29 @@ class Law(Tunable):
         gains = self.gains_for(vehicle)
         prepared = {} if self.prepare is None else self.prepare(vehicle, gains)
         bound = BoundLaw(
-            name=self.name,
-            e3=self.e3,
+            **{entry.name: getattr(self, entry.name) for entry in fields(Feedback)},
             vehicle=vehicle,
-            control=self.control,
             table=self.gains,
             gains=gains,
             prepared=prepared,
             guard=self.guard(gains) if callable(self.guard) else self.guard,
             computer=self.computer({**prepared, **gains}) if callable(self.computer) else self.computer,
-            uses_forces=self.uses_forces,
-            uses_wrench=self.uses_wrench,
-            reference=self.reference,
-            path=self.path,
-            fixed=self.fixed,
-            theorem=self.theorem,
-            certify=self.certify,
-            check=self.check,
             calmer=self._calmer(vehicle),
         )
         return bound.tried() if is_own(self.control) else bound
 
     def _calmer(self, vehicle: Vehicle) -> Callable[[float], BoundLaw] | None:
         """Return share → the law bound to `vehicle` with gains as calm; None if there are none, or all are given."""
-        if self.calm is None or not set(self.calm(vehicle, 1.0)) - set(self.given):
+        calm = self.calm
+        if calm is None or not set(calm(vehicle, 1.0)) - set(self.given):
             return None
-        return partial(self._calmed, self.calm, vehicle)
 
-    def _calmed(self, calm: Callable[[Vehicle, float], Values], vehicle: Vehicle, share: float) -> BoundLaw:
-        """Return the law bound to `vehicle`, near its reference with the gains of `calm` that were not given."""
-        if share == 0:
-            return self.bind(vehicle)
-        bound = self.bind(vehicle)
-        ratios = {
-            name: value / bound.gains[name] for name, value in calm(vehicle, share).items() if name not in self.given
-        }
-        prepared = {**bound.prepared, "calming": ratios}
-        return replace(bound, prepared=prepared, calmer=partial(self._calmed, calm, vehicle), calm=share)
+        def calmed(share: float) -> BoundLaw:
+            bound = self.bind(vehicle)
+            if share == 0:
+                return bound
+            wanted = {name: value for name, value in calm(vehicle, share).items() if name not in self.given}
+            ratios = {name: value / bound.gains[name] for name, value in wanted.items()}
+            return replace(bound, prepared={**bound.prepared, "calming": ratios}, calm=share)
+
+        return calmed

@@ -11,7 +11,7 @@ and the other coordinates are linear.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -94,12 +94,7 @@ class Linearisation:
         if not self._is_free(left_out):
             raise InputError("coordinates", "some that the others do not depend on", ", ".join(names))
         keep = [i for i, name in enumerate(self.coordinates) if name not in left_out]
-        return Linearisation(
-            at=self.at,
-            A=self.A[np.ix_(keep, keep)],
-            coordinates=tuple(self.coordinates[i] for i in keep),
-            acceleration=self.acceleration,
-        )
+        return replace(self, A=self.A[np.ix_(keep, keep)], coordinates=tuple(self.coordinates[i] for i in keep))
 
     def _members(self, name: str) -> tuple[str, ...]:
         found = tuple(one for one in self.coordinates if name in (one, one[:-2]))
@@ -134,15 +129,18 @@ def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) ->
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
     bound = law.bind(vehicle)
-    rates = _closed_loop(bound, vehicle)
+    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
+    wrench = bound.evaluate(t, State.symbolic(packed), vehicle).wrench
+    now = ca.substitute(_motion(packed, wrench, vehicle, bound.e3, t), [t], [ca.SX(0)])
+    motion = ca.Function("closed_loop", [packed], ca.cse(now))
     state = _upright(bound) if at is None else _single(at)
     for _ in range(_NEWTON_STEPS):
-        velocity, A = _on_tangent_space(rates, state)
+        velocity, A = _standing(motion, state)
         step = np.linalg.lstsq(A, -velocity, rcond=1e-10)[0]
         if not 1e-12 < np.linalg.norm(step) < 1:
             break  # converged, or diverging
         state = retract(state, step)
-    velocity, A = _on_tangent_space(rates, state)
+    velocity, A = _standing(motion, state)
     _check_rest(velocity, A)
     return Linearisation(at=state, A=A, acceleration=velocity[3:6])
 
@@ -164,17 +162,11 @@ def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> t
     InputError
         If attitude and rod are not at rest at `at` under `wrench`.
     """
-    packed, input_ = ca.SX.sym("s", SIZE), ca.SX.sym("u", 4)
-    motion = equations_of_motion(State.symbolic(packed), Wrench(input_[0], input_[1:]), vehicle, e3).packed()
-    outputs = [motion, ca.jacobian(motion, packed), ca.jacobian(motion, input_)]
-    function = ca.Function("open_loop", [packed, input_], [ca.densify(value) for value in outputs])
-    held = np.concatenate([[wrench.thrust], wrench.moment])
-    F, F_s, F_u = (np.array(value) for value in function(_single(at).packed(), held))
-    E = tangent_basis(at)
-    P = np.linalg.pinv(E)
-    A = P @ F_s @ E
-    _check_rest(P @ F[:, 0], A)
-    return A, P @ F_u
+    packed, u = ca.SX.sym("s", SIZE), ca.SX.sym("u", 4)
+    motion = ca.Function("open_loop", [packed, u], _motion(packed, Wrench(u[0], u[1:]), vehicle, e3, u))
+    velocity, A, B = _on_tangent_space(motion, _single(at), np.append(wrench.thrust, wrench.moment))
+    _check_rest(velocity, A)
+    return A, B
 
 
 def tangent_basis(at: State) -> Numbers:
@@ -212,26 +204,28 @@ def _plane(y: Vector) -> Numbers:
     return np.stack([b_1, cross(y, b_1)])
 
 
-def _closed_loop(law: BoundLaw, vehicle: Vehicle) -> ca.Function:
-    """Return packed state (24,) → rates and their derivatives with respect to state and time, at time 0."""
-    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
-    state = State.symbolic(packed)
-    motion = equations_of_motion(state, law.evaluate(t, state, vehicle).wrench, vehicle, law.e3).packed()
-    outputs = [motion, ca.jacobian(motion, packed), ca.jacobian(motion, t)]
-    now = ca.substitute([ca.densify(value) for value in outputs], [t], [ca.SX(0)])
-    return ca.Function("closed_loop", [packed], ca.cse(now))
+def _motion(packed: Numbers, wrench: Wrench, vehicle: Vehicle, e3: E3Direction, other: Numbers) -> list[Numbers]:
+    """Return the rates (24, 1) of the `packed` state, and their derivatives by it and by the `other` symbols."""
+    rates = equations_of_motion(State.symbolic(packed), wrench, vehicle, e3).packed()
+    return [ca.densify(value) for value in (rates, ca.jacobian(rates, packed), ca.jacobian(rates, other))]
 
 
-def _on_tangent_space(rates: ca.Function, state: State) -> tuple[Numbers, Numbers]:
-    """Return velocity ξ̇ (16,) and A at `state`, with R, ω, y and ẏ assumed at rest."""
-    F, F_s, F_t = (np.array(value) for value in rates(state.packed()))
-    if not all(np.all(np.isfinite(value)) for value in (F, F_s, F_t)):
+def _on_tangent_space(motion: ca.Function, state: State, *others: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return velocity ξ̇ (16,), A, and ∂ξ̇ by the `others`, at `state`, with R, ω, y and ẏ assumed at rest."""
+    F, F_s, F_other = (np.array(value) for value in motion(state.packed(), *others))
+    if not all(np.all(np.isfinite(value)) for value in (F, F_s, F_other)):
         raise InputError("law", "one that is differentiable at its equilibrium", "NaN or infinity")
-    if np.any(F_t):
-        raise InputError("law", "one whose reference stands still", "one that depends on time")
     E = tangent_basis(state)
     P = np.linalg.pinv(E)
-    return P @ F[:, 0], P @ F_s @ E
+    return P @ F[:, 0], P @ F_s @ E, P @ F_other
+
+
+def _standing(motion: ca.Function, state: State) -> tuple[Numbers, Numbers]:
+    """Return velocity and A of a closed loop, whose derivative by time has to vanish."""
+    velocity, A, drift = _on_tangent_space(motion, state)
+    if np.any(drift):
+        raise InputError("law", "one whose reference stands still", "one that depends on time")
+    return velocity, A
 
 
 def _check_rest(velocity: Any, A: Any) -> None:

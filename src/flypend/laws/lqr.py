@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.errors import InputError
 from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic, norm, scale
 from flypend.laws.bound import Control
-from flypend.laws.gain import POSITIVE, Gain, document_gains, table
+from flypend.laws.gain import POSITIVE, Gain, check_gravity, document_gains, table
 from flypend.laws.law import Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
 from flypend.laws.references import Path, Reference, hover
@@ -67,37 +66,12 @@ def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """Build the linear-quadratic regulator; its weights are the inverse squares of the largest acceptable deviations.
 
     Only their ratios matter. For the errors ξ of a state far from hover, see `errors_of`.
-
-    Parameters
-    ----------
-    reference : callable, optional
-        Pivot position (3,), m, as a CasADi function of time; default hover at the origin. See `laws.references`.
-    **gains : float
-        Any of the gains below, in the stated unit.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or not positive.
     """
     followed = reference or hover()
     return Law(
-        name="lqr",
-        e3="up",
-        gains=GAINS,
-        given=gains,
-        control=_control,
+        name="lqr", e3="up", gains=GAINS, given=gains, control=lqr_control, reference=followed, path=carrying(followed),
         prepare=lambda vehicle, given: {"K": gain_matrix(vehicle, given)},
-        reference=followed,
-        path=carrying(followed),
-    )
-
-
-def _control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
-    """Evaluate the law for symbols `t` (s) and `state`, with its gain matrix k.K (4, 16)."""
-    return lqr_control(t, state, vehicle, k.K, path)
+    )  # fmt: skip
 
 
 def by_matrix(K: Numbers) -> Law:
@@ -112,7 +86,7 @@ def by_matrix(K: Numbers) -> Law:
         matrix = ca.SX.zeros(4, len(COORDINATES))
         for name, i, j in ENTRIES:
             matrix[i, j] = getattr(k, name)
-        return lqr_control(t, state, vehicle, matrix, path)
+        return lqr_control(t, state, vehicle, SimpleNamespace(K=matrix), path=path)
 
     gains = [Gain(name, value, doc="Entry of the gain matrix, SI units") for name, value in entries(K).items()]
     return Law(name="lqr", e3="up", gains=gains, control=control, reference=followed, path=carrying(followed))
@@ -125,8 +99,7 @@ def entries(K: Numbers) -> dict[str, float]:
 
 def gain_matrix(vehicle: Vehicle, deviations: Any) -> Numbers:
     """Return K (4, 16) of `vehicle` about inverted hover for the `deviations` of `lqr`; its heading column is zero."""
-    if vehicle.gravity == 0:
-        raise InputError("vehicle.gravity", "gravity > 0, without which no pose is inverted", "0 m/s²")
+    check_gravity(vehicle)
     A, B = _about_hover(vehicle)
     Q, R = weights(vehicle, deviations)
     keep = [i for i, name in enumerate(COORDINATES) if name not in SYMMETRIES]
@@ -182,21 +155,20 @@ def weights(vehicle: Vehicle, deviations: Any) -> tuple[Numbers, Numbers]:
     return np.diag(1 / np.array(state) ** 2), np.diag(1 / wrench**2)
 
 
-def lqr_control(t: Scalar, state: State, vehicle: Vehicle, K: Numbers, path: Path) -> Control:
-    """Evaluate the law with gain matrix `K` (4, 16) for symbols `t` (s) and `state` of `vehicle`, along `path`.
+def lqr_control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *, path: Path) -> Control:
+    """Evaluate the law with gain matrix `k.K` (4, 16) for symbols `t` (s) and `state` of `vehicle`, along `path`.
 
     The reference wrench is the one that moves rod and vehicle along the path; in hover it is the weight.
     """
-    I = vehicle.I
     x_ref, v_ref, y_ref, z_ref, f_ref = flat_reference(t, path, vehicle)
     y_ref_dot = ca.jacobian(y_ref, t)
     turn = cross(z_ref, ca.jacobian(z_ref, t))  # angular velocity of z_ref, world frame
     omega_ref, alpha_ref = apply(state.R.T, turn), apply(state.R.T, ca.jacobian(turn, t))
 
     xi = errors_of(state, x_ref, v_ref, z_ref, omega_ref, y_ref, y_ref_dot)
-    change = ca.mtimes(K if is_symbolic(K) else ca.DM(K), xi)
+    change = ca.mtimes(k.K if is_symbolic(k.K) else ca.DM(k.K), xi)
     thrust = ca.fmax(f_ref - change[0], 0)
-    moment = apply(I, alpha_ref) - change[1:]
+    moment = apply(vehicle.I, alpha_ref) - change[1:]
     return Control(
         wrench=Wrench(thrust, moment),
         signals={"rod_error": norm(state.y - y_ref), "axis_error": norm(state.z - z_ref)},

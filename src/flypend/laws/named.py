@@ -29,10 +29,7 @@ FACTORIES: Mapping[str, Callable[..., Law]] = {
 # The laws of the paper's theorem: they accept its gains, bring the rod to their e₃ and control no position.
 THEOREM_1 = ("printed", "corrected", "repaired")
 SHAPES: Mapping[str, Callable[..., Reference]] = {
-    "hover": references.hover,
-    "line": references.line,
-    "circle": references.circle,
-    "lemniscate": references.lemniscate,
+    shape.__name__: shape for shape in (references.hover, references.line, references.circle, references.lemniscate)
 }
 
 

@@ -11,10 +11,10 @@ import hashlib
 import inspect
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
 from pathlib import Path
-from types import SimpleNamespace
+from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
 import casadi as ca
@@ -23,12 +23,14 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.laws.controller import Controller, Steering
-from flypend.laws.gain import Gain, is_number
+from flypend.geometry import Numbers
+from flypend.laws.bound import Computer
+from flypend.laws.gain import Gain, Tunable, check_gains, is_number, table
 from flypend.laws.law import Law
-from flypend.laws.located import LawError, Located, beginning, check_finite, file_of, innermost, wrench_of
+from flypend.laws.located import LawError, Located, beginning, check_finite, file_of, innermost, is_own, wrench_of
+from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench, vehicle
-from flypend.model.state import SIZE, E3Direction
+from flypend.model.state import SIZE, E3Direction, convert_packed
 
 # Argument names recognised in a custom law. The fourth role, gains, dates from version 0.1.
 ROLES: Mapping[str, tuple[str, ...]] = {
@@ -43,6 +45,99 @@ warnings.filterwarnings("ignore", message=r"\s*casadi: a numpy function", catego
 EXPECTED = "a function of (t, state, vehicle, *, gain=default, ...)"
 # Each function is tried on a known vehicle in two states, where symbolic and numeric results must agree to this.
 _TRIED, _AGREEMENT = 2, 1e-9
+
+
+Steering = Callable[[float, State], Wrench]
+
+
+@errors.named_arguments
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Controller(Tunable):
+    """State feedback by any Python callable: not symbolic, so slower, and always sampled.
+
+    Parameters
+    ----------
+    name : str
+        Name for tables and files.
+    function : callable
+        `function(t, state) -> Wrench`, with t (s) and the measured `State`, in the frame given by `e3`.
+    e3 : "up" or "down"
+        Direction of the world's third axis in the function's frame.
+    rate : float
+        Control rate in the ideal plant, Hz; other plants have their own.
+    reference : callable, optional
+        Pivot position to hold or follow, as a CasADi function of time.
+    gains : dict
+        Gain values by name.
+    computer : Computer
+        Lead, prediction and observer around the law in a sampled flight.
+    flight_computer : callable, optional
+        `flight_computer(loop, rotors)` returns an object that replaces the whole flight computer in a sampled flight.
+        Its method `command(t, state)` returns the command for time t (s) and a measured state (24,), e₃ up. `loop` is
+        a `plants.loop.Loop`; `rotors` (n,) are the initial rotor forces, N.
+    steering : callable, optional
+        `steering(vehicle, gains)` returns the `function` for a vehicle, if it depends on vehicle or gains.
+    table : dict of Gain, optional
+        Registry of the gains; default made from `gains`, without bounds.
+    because : str
+        Why it is not symbolic, in a few words.
+    """
+
+    name: str
+    function: Steering
+    e3: E3Direction = "up"
+    rate: float = 500.0
+    reference: Reference | None = None
+    gains: Mapping[str, Any] = field(default_factory=dict)
+    computer: Computer = field(default_factory=Computer)
+    flight_computer: Callable[[Any, Any], Any] | None = None
+    steering: Callable[[Vehicle, Mapping[str, Any]], Steering] | None = None
+    table: Mapping[str, Gain] = field(default_factory=dict)
+    because: str = ""
+
+    def __post_init__(self) -> None:
+        errors.one_of("controller.e3", self.e3, ("up", "down"))
+        errors.check_arguments("controller.function", self.function, "(t, state)")
+        errors.number("controller.rate", self.rate, above=0, unit="Hz")
+        check_reference(self.reference)
+        object.__setattr__(self, "table", table(self.table or self.gains))
+        object.__setattr__(self, "gains", MappingProxyType(dict(self.gains)))
+
+    def bind(self, vehicle: Vehicle) -> Controller:
+        """Return the controller for `vehicle`: itself, unless it depends on vehicle or gains."""
+        if self.steering is None:
+            return self
+        steering = Located(self.steering, self.name, inner=True) if is_own(self.steering) else self.steering
+        return replace(self, function=steering(vehicle.commanded(), self.gains))
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The real-valued gains, in order."""
+        return {name: float(value) for name, value in self.gains.items() if is_number(value)}
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The gains whose values differ from their defaults."""
+        return {name: value for name, value in self.gains.items() if value != self.table[name].default}
+
+    def gains_for(self, _: Vehicle) -> dict[str, Any]:
+        """Gain values by name, the same for every vehicle."""
+        return dict(self.gains)
+
+    def with_gains(self, given: Mapping[str, Any], prefix: str = "") -> Controller:
+        """Return a copy with the gains `given`, checked like `Law.with_gains`; messages begin with `prefix`."""
+        return replace(self, gains={**self.gains, **check_gains(self.table, given, prefix)})
+
+    def upright(self, t: float, packed: Numbers) -> NDArray[Any]:
+        """Return thrust and moment (4,), e₃ up, at time `t` (s) for a `packed` state (24,), e₃ up."""
+        answer = self._answer(t, State.trusted(convert_packed(packed, self.e3)))
+        wrench = wrench_of(answer, self.function, self.name).in_frame(self.e3)
+        return np.append(wrench.thrust, wrench.moment)
+
+    @cached_property
+    def _answer(self) -> Steering:
+        """The function; that of a user with its mistakes on one line."""
+        return Located(self.function, self.name) if is_own(self.function) else self.function
 
 
 @errors.named_arguments
@@ -108,7 +203,7 @@ def fingerprint(controller: Controller) -> bytes:
 
 def is_factory(function: Callable[..., Any]) -> bool:
     """Whether a `function` can be called without arguments, and so may be a factory of laws."""
-    return not _required_arguments(function)
+    return all(p.default is not p.empty for p in _parameters(function))
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +247,8 @@ def _read(
     function: Callable[..., Any], name: str, records: Mapping[str, Gain]
 ) -> tuple[tuple[str, ...], dict[str, Gain]]:
     """Return the form of a function, one of `FORMS`, and its gains."""
-    needed = _required_arguments(function)
+    arguments = _parameters(function)
+    needed = [p for p in arguments if p.default is p.empty]
     form = tuple(_role(parameter.name, place) for place, parameter in enumerate(needed))
     bare = [p.name for p in needed if p.kind is p.KEYWORD_ONLY]
     if bare:
@@ -160,7 +256,7 @@ def _read(
     if form not in FORMS:
         got = ", ".join(p.name for p in needed) or "nothing"
         raise InputError("law", EXPECTED, f"{name} of ({got})")
-    table = {p.name: records.get(p.name, Gain(p.name, p.default, label=p.name)) for p in _default_arguments(function)}
+    table = {p.name: records.get(p.name, Gain(p.name, p.default, label=p.name)) for p in arguments if p not in needed}
     for gain in table.values():
         if not (is_number(gain.default) or isinstance(gain.default, str)):
             raise InputError("law", "gains that are numbers or words", f"{name} with {gain.name} = {gain.default!r}")
@@ -176,15 +272,6 @@ def _role(name: str, place: int) -> str:
     if not bare:
         return (*ROLES, *[name] * (place + 1))[place]
     return next((role for role, names in ROLES.items() if bare in names), name)
-
-
-def _required_arguments(function: Callable[..., Any]) -> list[inspect.Parameter]:
-    """Return the required arguments of a function."""
-    return [p for p in _parameters(function) if p.default is p.empty]
-
-
-def _default_arguments(function: Callable[..., Any]) -> list[inspect.Parameter]:
-    return [p for p in _parameters(function) if p.default is not p.empty]
 
 
 def _parameters(function: Callable[..., Any]) -> list[inspect.Parameter]:

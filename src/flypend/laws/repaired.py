@@ -16,12 +16,11 @@ from types import SimpleNamespace
 import casadi as ca
 
 from flypend import errors
-from flypend.errors import InputError
 from flypend.geometry import E3, Scalar, apply, cross, dot, norm, scale
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import BoundLaw, Control, Guard
-from flypend.laws.covering import outside, signals_at
-from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, document_gains, table
+from flypend.laws.closed_loop import outside, signals_at
+from flypend.laws.gain import NOT_NEGATIVE, POSITIVE, POSITIVE_SHARE, Bounds, Gain, check_gravity, document_gains, table
 from flypend.laws.guarantee import IDEAL, Guarantee, saturate
 from flypend.laws.law import Law
 from flypend.laws.step import Step, aim, push
@@ -41,8 +40,7 @@ def stiffness(vehicle: Vehicle) -> Scalar:
 
 def _of_frequency(factor: float, power: int) -> Callable[[Vehicle], float]:
     def value(vehicle: Vehicle) -> float:
-        if vehicle.gravity == 0:
-            raise InputError("vehicle.gravity", "gravity > 0, without which no pose hangs", "0 m/s²")
+        check_gravity(vehicle, "hangs")
         return float(factor * stiffness(vehicle) ** (power / 2))
 
     return value
@@ -71,18 +69,6 @@ def repaired(**gains: float) -> Law:
     The rod comes to hang from every start outside two sets of measure zero: z = -z_d, where the law is not defined, and
     the stable manifold of the saddle y = -e₃. Position is not controlled: the vehicle ends at constant velocity. The
     law assumes that the wrench acts as commanded, without limits.
-
-    Parameters
-    ----------
-    **gains : float
-        Any of the gains below, in the stated unit; the others get their defaults for the vehicle.
-
-    {gains}
-
-    Raises
-    ------
-    InputError
-        If a gain is unknown or out of bounds.
     """
     return Law(
         name="repaired", e3="down", gains=GAINS, given=gains, control=control_repaired, guard=OUTSIDE, theorem=theorem_a
@@ -116,11 +102,7 @@ def control_repaired(
         wrench=Wrench(
             f, axis_moment(state, vehicle.in_frame("down"), apply(state.R.T, u.force), -k.yaw_damping * state.omega[2])
         ),
-        lyapunov={
-            "V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2,
-            "V_2": u.potential,
-            "V_3": u.kinetic,
-        },
+        lyapunov={"V_1": k_p * (1 - dot(y, E3)) + speed_squared / 2, "V_2": u.potential, "V_3": u.kinetic},
         signals={
             "V_rate_claimed": u.decay - dot(y_dot, sigma),  # (A5)
             "domain": 1 + aimed.cosine,

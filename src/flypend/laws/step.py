@@ -83,10 +83,24 @@ def aim(phi: Vector, target: Vector, turn: Vector, force: Scalar, gradient: Vect
     """
     c = dot(phi, target)
     e = target - scale(c, phi)
+    return Aim(e, c, cross(turn, phi) + desired_velocity(phi, c, e, force, gradient, step))
+
+
+def desired_velocity(phi: Vector, c: Scalar, e: Vector, force: Scalar, gradient: Vector, step: Step) -> Vector:
+    """Return v_* (3, 1), 1/s, (S1), at the cosine c and the error e; the others as in `aim`."""
     across = tangent_part(phi, gradient)
     weak = step.weight * step.stiffness * ((1 - step.barrier) * (1 + c) + 2 * step.barrier)
-    cancelling = scale(force / weak, scale(step.fade * dot(gradient, phi), e) - scale(1 + c, across))
-    return Aim(e, c, cross(turn, phi) + step.alignment * e + cancelling)
+    return step.alignment * e + scale(force / weak, scale(step.fade * dot(gradient, phi), e) - scale(1 + c, across))
+
+
+def barrier_slope(c: Scalar, step: Step) -> Scalar:
+    """Return g(c) = −Ψ'(c)."""
+    return (1 - step.barrier) + 2 * step.barrier / (1 + c)
+
+
+def steering(phi: Vector, feedforward: Vector, c: Scalar, e: Vector, zeta: Vector, step: Step) -> Vector:
+    """Return u (3, 1), 1/s², (S3), at the cosine c, the error e and the rate error ζ; the others as in `push`."""
+    return tangent_part(phi, feedforward) + scale(step.stiffness * barrier_slope(c, step), e) - step.damping * zeta
 
 
 def push(phi: Vector, phi_dot: Vector, aimed: Aim, feedforward: Vector, step: Step) -> Push:
@@ -97,13 +111,11 @@ def push(phi: Vector, phi_dot: Vector, aimed: Aim, feedforward: Vector, step: St
     """
     e, c = aimed.error, aimed.cosine
     k, spread = step.weight * step.stiffness, 1 - step.barrier
-    g = spread + 2 * step.barrier / (1 + c)
     zeta = phi_dot - aimed.rate
-    u = tangent_part(phi, feedforward) + scale(step.stiffness * g, e) - step.damping * zeta
     return Push(
-        force=u,
+        force=steering(phi, feedforward, c, e, zeta, step),
         rate_error=zeta,
         potential=k * (spread * (1 - c) - 2 * step.barrier * ca.log((1 + c) / 2)),
         kinetic=step.weight * dot(zeta, zeta) / 2,
-        decay=-k * step.alignment * g * dot(e, e) - step.weight * step.damping * dot(zeta, zeta),
+        decay=-k * step.alignment * barrier_slope(c, step) * dot(e, e) - step.weight * step.damping * dot(zeta, zeta),
     )

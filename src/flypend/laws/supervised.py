@@ -18,9 +18,8 @@ import casadi as ca
 from flypend import errors
 from flypend.errors import InputError
 from flypend.geometry import Scalar, Vector
-from flypend.laws.almost_global import almost_global
+from flypend.laws.almost_global import almost_global, almost_global_lag
 from flypend.laws.almost_global_bounds import stands
-from flypend.laws.almost_global_lag import almost_global_lag
 from flypend.laws.bound import Control
 from flypend.laws.certified import ratios
 from flypend.laws.gain import POSITIVE, Gain, document_gains, table
@@ -97,17 +96,10 @@ def supervised(
     followed = reference or before.reference or hover()
     second = almost_global_lag(followed) if lag else almost_global(followed)
     return Law(
-        name="supervised",
-        e3="up",
-        gains=LAGGED_GAINS if lag else GAINS,
-        given=gains,
-        control=_control,
-        computer=lambda known: known["first"].computer,
-        uses_forces=before.uses_forces,
-        uses_wrench=lag,
-        reference=followed,
-        prepare=partial(_both, before, second),
-    )
+        name="supervised", e3="up", gains=LAGGED_GAINS if lag else GAINS, given=gains, control=_control,
+        computer=lambda known: known["first"].computer, uses_forces=before.uses_forces, uses_wrench=lag,
+        reference=followed, prepare=partial(_both, before, second),
+    )  # fmt: skip
 
 
 def _both(first: Law, second: Law, vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:

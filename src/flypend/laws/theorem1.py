@@ -7,7 +7,7 @@ what it claims (docs/paper/errata.md); and `corrected`, with three defects fixed
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -118,16 +118,11 @@ PRINTED = table(
 @document_gains(PRINTED)
 def printed(**gains: float | str) -> Law:
     """Build Theorem 1 as printed, with its damping sign and its minimum-norm beta; e₃ points along gravity."""
-    return Law(name="printed", e3="down", gains=PRINTED, given=gains, control=_as_printed, guard=_guard_printed)
+    return _law("printed", PRINTED, gains, _as_printed)
 
 
-def _as_printed(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
-    """Theorem 1 with the signs of the paper."""
-    return theorem_1(t, state, vehicle, k, Version(+1, 0.0 if k.beta == "minimum-norm" else None))
-
-
-def _guard_printed(gains: Mapping[str, Any]) -> Guard | None:
-    return BETA_GUARD if gains["beta"] == "minimum-norm" else None
+def _as_printed(k: SimpleNamespace) -> Version:
+    return Version(+1, 0.0 if k.beta == "minimum-norm" else None)
 
 
 CORRECTED = table(
@@ -157,14 +152,21 @@ def corrected(**gains: float | str) -> Law:
     The paper's five experiments converge, and so do most random starts. Some run away: the rod spins ever faster
     (docs/paper/errata.md, defect 9).
     """
-    return Law(name="corrected", e3="down", gains=CORRECTED, given=gains, control=_as_corrected, guard=_guard_corrected)
+    return _law("corrected", CORRECTED, gains, _as_corrected)
 
 
-def _as_corrected(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
-    """Theorem 1 with its damping sign corrected, and beta only if the gains ask for it."""
-    beta_floor = k.beta_floor if k.beta == "regularized" else None
-    return theorem_1(t, state, vehicle, k, Version(-1, beta_floor, k.yaw_damping))
+def _as_corrected(k: SimpleNamespace) -> Version:
+    return Version(-1, k.beta_floor if k.beta == "regularized" else None, k.yaw_damping)
 
 
-def _guard_corrected(gains: Mapping[str, Any]) -> Guard | None:
-    return BETA_GUARD if gains["beta"] == "regularized" and gains["beta_floor"] == 0 else None
+def _law(name: str, table: Mapping[str, Gain], given: Mapping[str, Any], version: Callable[[Any], Version]) -> Law:
+    """Return the law whose gains decide on its `version`; it is guarded where that divides by |v_e| alone."""
+
+    def control(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace) -> Control:
+        """Theorem 1 in the version of its gains."""
+        return theorem_1(t, state, vehicle, k, version(k))
+
+    def guard(values: Mapping[str, Any]) -> Guard | None:
+        return BETA_GUARD if version(SimpleNamespace(**values)).beta_floor == 0 else None
+
+    return Law(name=name, e3="down", gains=table, given=given, control=control, guard=guard)

@@ -244,10 +244,5 @@ def lift(F: Vector, tilt: Scalar) -> Vector:
 def coast(rod: Rod, time: Scalar) -> Rod:
     """Return the `rod` after coasting for `time` s: y + time ẏ projected onto S², and its velocity."""
     y, y_dot = rod
-    factor = 1 / norm_of_sum(y_dot, time)
+    factor = 1 / ca.sqrt(1 + time**2 * dot(y_dot, y_dot))  # 1/|y + time ẏ| for tangent ẏ
     return Rod(scale(factor, y + time * y_dot), scale(factor, y_dot - scale(time * dot(y_dot, y_dot), y)))
-
-
-def norm_of_sum(y_dot: Vector, time: Scalar) -> Scalar:
-    """Return |y + time ẏ| for tangent ẏ."""
-    return ca.sqrt(1 + time**2 * dot(y_dot, y_dot))

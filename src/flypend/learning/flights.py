@@ -14,7 +14,7 @@ import numpy as np
 from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.identification.model import ERROR
-from flypend.laws.policy import FEATURES, HOVER
+from flypend.laws.learned import FEATURES, HOVER
 from flypend.learning.course import Course
 from flypend.learning.machines import Flown, Machines
 from flypend.learning.network import Weights, backward, forward

@@ -1,4 +1,4 @@
-"""The network of `laws.policy` on batches, there and back, and the method by which its weights move."""
+"""The network of `laws.learned` on batches, there and back, and the method by which its weights move."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from flypend.laws.policy import FEATURES, HOVER
+from flypend.laws.learned import FEATURES, HOVER
 
 Weights = dict[str, NDArray[np.float32]]
 

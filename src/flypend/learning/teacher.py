@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from flypend import signals
 from flypend.compile.llvm.stagewise import lanes, stagewise
 from flypend.laws import inverted
+from flypend.laws.learned import FEATURES, activation
 from flypend.laws.lqr import GAINS, gain_matrix
-from flypend.laws.policy import FEATURES, activation
 from flypend.learning.flights import Flights, flat
 from flypend.learning.network import Adam, Weights, activate, backward, forward, with_hover
 from flypend.model import Vehicle

@@ -15,7 +15,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
-from flypend.laws.policy import MOST_WEIGHTS, Policy
+from flypend.laws.learned import MOST_WEIGHTS, Policy
 from flypend.learning.course import Course
 from flypend.learning.flights import Costs, Flights
 from flypend.learning.machines import Machines

@@ -18,7 +18,7 @@ import numpy as np
 
 from flypend.compile.llvm.stagewise import Stagewise, stagewise
 from flypend.identification.model import ERROR, correct
-from flypend.laws.policy import features, shares
+from flypend.laws.learned import features, shares
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Scaled

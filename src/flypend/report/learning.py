@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from flypend import __version__
 from flypend.files.staging import staging
 from flypend.files.whole import save_figure
-from flypend.laws.policy import save
+from flypend.laws.learned import save
 from flypend.learning.training import Entry, Learner
 from flypend.palette import BLUE, GREEN, GREY, RED
 from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule

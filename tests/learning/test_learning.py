@@ -13,12 +13,11 @@ from flypend.laws.linearise import linearise
 from flypend.laws.policy import FEATURES, Policy, load, save
 from flypend.learning import flights as flying
 from flypend.learning import world
-from flypend.learning.course import Course
+from flypend.learning.course import WORSE, Course, Flown, Machines, machine_of
 from flypend.learning.flights import Flights
-from flypend.learning.machines import WORSE, Flown, Machines, machine_of
 from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
 from flypend.learning.teacher import Imitation, Teacher, direct
-from flypend.learning.training import AMONG, Learner, Scouts, Training, starts, usual
+from flypend.learning.training import AMONG, Learner, Training, dangerous, starts, usual
 from flypend.model.mount import clearances
 from flypend.planning.dynamics import Scaled, Units
 from flypend.plants.bands import world_of
@@ -261,6 +260,14 @@ def test_imitation_and_then_descent_make_flights_cheaper():
     assert learner.curve[-1].cost < 0.9 * imitated.cost
 
 
+def test_starts_touch_nothing_wherever_the_pivot_is():
+    hub = VEHICLE.replace(mount="hub", pivot_offset=(0.0, 0.0, 0.05))
+    begin = starts(hub, np.random.default_rng(4), 256)
+    states = fp.State.trusted((begin * Units.of(hub).states(4))[:, :24])
+    rods = np.einsum("nji,nj->ni", states.R, states.y)
+    assert clearances(rods, hub.rotors_from_pivot, hub.reach, hub.body).min() > 0
+
+
 def nearest(course, weights, begin):
     flights = Flights(course, len(begin))
     flights.fly(weights, begin)
@@ -269,9 +276,9 @@ def nearest(course, weights, begin):
 
 def test_scouts_keep_the_starts_whose_rods_come_nearest_to_an_arm():
     hub = VEHICLE.replace(mount="hub")
-    scouts, w = Scouts(Course(hub, duration=2.0), 16), weights_of()
+    scouts, w = Learner(Training(Course(hub, duration=2.0), batch=32, hidden=(16, 16)))._scouts, weights_of()
     begin = starts(hub, np.random.default_rng(4), scouts.count)
-    kept = scouts.dangerous(w, begin)
+    kept = dangerous(scouts, w, begin, 16)
     assert scouts.count == AMONG * len(kept)
     near = nearest(Course(hub, duration=0.3), w, begin)
     rest = begin[~np.isin(begin, kept).all(axis=1)]

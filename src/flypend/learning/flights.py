@@ -15,8 +15,7 @@ from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, lanes
 from flypend.identification.model import ERROR
 from flypend.laws.policy import FEATURES, HOVER
-from flypend.learning.course import Course
-from flypend.learning.machines import Flown, Machines
+from flypend.learning.course import Course, Flown, Machines
 from flypend.learning.network import Weights, backward, forward
 from flypend.learning.world import COSTS, OF_FLIGHT, kernels
 from flypend.model.state import SIZE
@@ -45,10 +44,8 @@ class Flights:
         vehicle, units, steps = course.vehicle, Units.of(course.vehicle), course.steps
         self.rotors, self.length = len(vehicle.rotor_spins), units.length
         self.kernels, self.weights = kernels(self.rotors), course.weights[:, None, None]
-        self.states, self.asked = (
-            lanes(steps + 1, self.groups, SIZE + 3 * self.rotors),
-            lanes(steps, self.groups, self.rotors),
-        )
+        self.states = lanes(steps + 1, self.groups, SIZE + 3 * self.rotors)
+        self.asked = lanes(steps, self.groups, self.rotors)
         self.costs, self._seen = lanes(steps, self.groups, COSTS), lanes(self.groups, FEATURES)
         self.phi = np.zeros((steps + 1, FEATURES, count + 1), dtype=np.float32)
         self.phi[:, :, -1] = HOVER

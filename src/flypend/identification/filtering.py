@@ -15,8 +15,8 @@ import numpy as np
 
 from flypend import signals
 from flypend.geometry import Numbers, unit
-from flypend.identification.grid import Grid
-from flypend.identification.model import ERROR, LOCAL, MOVING, READING, sizes
+from flypend.identification.log import Grid
+from flypend.identification.model import ERROR, LOCAL, MOVING, READING, places, sizes
 from flypend.identification.rotors import Forces
 
 SEGMENT = 2.0  # s, over which scores are summed: some correlation times of gusts and swings
@@ -28,10 +28,9 @@ GUST_TIME = 1.0  # s
 HASTE = 1.5
 ABSENT = 0.6  # a ratio below which the noise is probably none; it leaves twice as fast
 # Parts of a local error of the state that share one density of noise.
-NOISY = {
-    "x": slice(0, 3), "x_dot": slice(3, 6), "phi": slice(6, 9), "omega": slice(9, 11), "omega_3": slice(11, 12),
-    "y": slice(12, 15), "y_dot": slice(15, 18), "on_vehicle": slice(18, 21), "on_bob": slice(21, 24),
-}  # fmt: skip
+NOISY = places({
+    "x": 3, "x_dot": 3, "phi": 3, "omega": 2, "omega_3": 1, "y": 3, "y_dot": 3, "on_vehicle": 3, "on_bob": 3,
+})  # fmt: skip
 # Of what drives, these are estimated: white accelerations explain what gusts do, and would take their place.
 SOUGHT = ("omega", "omega_3", "on_vehicle", "on_bob")
 DRIVEN = ("x_dot", "omega", "omega_3", "y_dot", "on_vehicle", "on_bob")

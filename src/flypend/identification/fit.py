@@ -12,12 +12,13 @@ from threadpoolctl import threadpool_limits
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Vector, vee
 from flypend.identification.filtering import GUST_TIME, Noises, Pass, Programs, run_filter
-from flypend.identification.grid import grid_step, to_grid
-from flypend.identification.log import Log
-from flypend.identification.model import CHANNELS, MOVING, READING, moves, reads, sizes
-from flypend.identification.numbers import Search, places, search_from
+from flypend.identification.log import Log, grid_step, to_grid
+from flypend.identification.model import CHANNELS, MOVING, READING, moves, reads, sizes, split
+from flypend.identification.numbers import Search, search_from
 from flypend.identification.rotors import Forces, rotor_forces, rotor_slopes, rotor_table
 from flypend.model import Vehicle
+
+Progress = Callable[[str, int, int], None] | None
 
 PASSES = 12
 ROUGH = 2  # passes before noises are estimated, of errors that until then are the guess's
@@ -61,11 +62,11 @@ class Fit:
     converged: bool
 
 
-def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[int, float], None] | None = None) -> Fit:
+def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progress = None) -> Fit:
     """Search the numbers of `vehicle`, the guess, that make `log` likeliest.
 
-    `marker` is the tracked point from the pivot, body frame, m; `pwm` says that commands are fractions; `tell` is told
-    the pass and the largest step in standard errors.
+    `marker` is the tracked point from the pivot, body frame, m; `pwm` says that commands are fractions; `progress` is
+    called with ("pass", done, total).
     """
     search = search_from(vehicle, pwm, bool(np.isfinite(log.force).any()))
     programs = Programs(moves(vehicle), reads(vehicle, marker))
@@ -85,8 +86,8 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[i
         step[free] = bread @ (scores.sum(axis=0) - (prior * theta)[free])
         after = search.within(theta + step)
         moved = float(np.max(np.abs(after - theta)[free] / np.sqrt(np.diag(bread))))
-        if tell is not None:
-            tell(k + 1, moved)
+        if progress is not None:
+            progress("pass", k + 1, PASSES)
         converged = moved < DONE and k > UNGATED
         if converged or k + 1 == PASSES:
             break
@@ -104,23 +105,19 @@ def one_pass(
     log: Log, search: Search, theta: Numbers, noises: Noises, programs: Programs, pwm: bool, gated: bool
 ) -> Pass:
     """Run the filter with the numbers at θ; its scores are by the numbers themselves."""
-    plain, where = search.plain(theta), places(search.table)
-    latency = float(plain[where["latency"]][0])
-    grid = to_grid(log, latency)
-    reading = plain[-sizes(READING) :].copy()
-    reading[0] = 0.0  # poses of the grid are that much older
-    n = log.command.shape[1]
-    names = rotor_table(n)
-    rotors = plain[sizes(MOVING) : sizes(MOVING) + sizes(names)]
+    names = rotor_table(log.command.shape[1])
+    parts = {"moving": sizes(MOVING), "rotors": sizes(names), "reading": sizes(READING)}
+    now, free = split(parts, search.plain(theta)), split(parts, search.spread > 0)
+    grid = to_grid(log, float(split(READING, now["reading"])["latency"][0]))
+    now["reading"][0] = 0.0  # poses of the grid are that much older
 
     def forces(values: Any) -> Forces:
-        by_name = {name: values[place] for name, place in places(names).items()}
-        return rotor_forces(log.t, log.command, grid.t, by_name, search.vehicle.rotor_limits[1], pwm)
+        most = search.vehicle.rotor_limits[1]
+        return rotor_forces(log.t, log.command, grid.t, split(names, values), most, pwm)
 
-    middle = forces(rotors)
-    free = search.spread[sizes(MOVING) : sizes(MOVING) + sizes(names)] > 0
-    slopes = rotor_slopes(middle, forces, rotors, names, free)
-    return run_filter(grid, middle, slopes, plain[: sizes(MOVING)], reading, noises, programs, gated)
+    middle = forces(now["rotors"])
+    slopes = rotor_slopes(middle, forces, now["rotors"], names, free["rotors"])
+    return run_filter(grid, middle, slopes, now["moving"], now["reading"], noises, programs, gated)
 
 
 def first_noises(vehicle: Vehicle, log: Log) -> Noises:

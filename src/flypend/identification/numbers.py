@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from flypend.geometry import Numbers
-from flypend.identification.model import MOVING, READING, sizes, split
+from flypend.identification.model import MOVING, READING, places, split
 from flypend.identification.rotors import patterns, rotor_table
 from flypend.model import Vehicle
 
@@ -80,13 +80,6 @@ def table(rotors: int) -> dict[str, int]:
     return {**MOVING, **rotor_table(rotors), **READING}
 
 
-def places(of: dict[str, int]) -> dict[str, slice]:
-    """Return where each name of a table stands."""
-    return dict(
-        zip(of, (slice(int(a[0]), int(a[-1]) + 1) for a in split(of, np.arange(sizes(of))).values()), strict=True)
-    )
-
-
 def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
     """Return the search that begins at `vehicle`; with `pwm` the thrust curve is searched too.
 
@@ -112,12 +105,12 @@ def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
                 given[name] = (low + high) / 2
             if name == "shares":
                 given[name], spreads[name] = patterns(n).T @ np.log(low * high) / 2, spreads[name].mean()
-    of = table(n)
-    fixed = {*(() if pwm else ("curve",)), *(() if accelerometer else ("force_bias",))}
+    if not pwm:
+        spreads["curve"] = 0.0
+    if not accelerometer:
+        spreads["force_bias"] = 0.0
     parts = [
-        (np.broadcast_to(given.get(name, 0.0), size),
-         np.broadcast_to(0.0 if name in fixed else spreads[name], size).astype(float),
-         np.full(size, name in RATIOS))
-        for name, size in of.items()
-    ]  # fmt: skip
-    return Search(vehicle, *(np.concatenate(column) for column in zip(*parts, strict=True)))
+        [np.broadcast_to(number, size) for number in (given.get(name, 0.0), spreads[name], name in RATIOS)]
+        for name, size in table(n).items()
+    ]
+    return Search(vehicle, *map(np.concatenate, zip(*parts, strict=True)))

@@ -67,8 +67,9 @@ class Environment:
     Raises
     ------
     InputError
-        If the rates do not match, the duration is shorter than an action, a delay is too long, or the plant has
-        something that worlds do not have: noise, sensors of its own, gusts, MuJoCo.
+        If the rates do not match, the duration is shorter than an action, a delay is too long, the task does not begin
+        on the vehicle's mount, or the plant has something that worlds do not have: noise, sensors of its own, gusts,
+        MuJoCo.
     """
 
     task: Task
@@ -85,6 +86,9 @@ class Environment:
         errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
         errors.one_of("attitude", self.attitude, ATTITUDES.values())
         errors.one_of("observe", self.observe, ("all", "state"))
+        if self.vehicle.mount not in self.task.mounts:
+            wanted = f"{' or '.join(map(repr, self.task.mounts))}, for the task {self.task.name}"
+            raise InputError("mount", wanted, repr(self.vehicle.mount))
         self._check_plant()
         errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
         if abs(self.plant.rate / self.rate - self.steps) > 1e-9:
@@ -164,29 +168,20 @@ class Parts:
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        state, goal = env.task.begin(draws, env.vehicle)
-        hover = self._hover(n)
+        (low, high), (state, goal) = env.vehicle.rotor_limits, env.task.begin(draws, env.vehicle)
+        hover = ca.DM(np.full(n, np.clip(env.vehicle.weight / n, low, high)))
+        asked = ca.vertcat(2 * ca.sum1(hover) / (n * high) - 1, ca.DM.zeros(3))  # the action that commands it
+        if env.action == "rotors":
+            asked = 2 * (hover - low) / (high - low) - 1
         numbers = Varied.drawn(env.vehicle, env.randomise, draws)
         wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
         delay = (env.plant.delay + draws.between(*env.randomise.delay)) * env.plant.rate
         memory = ca.vertcat(
-            state.packed(), hover, self._asked(hover), *[hover] * self.queued, wind, ca.SX(3, 1),
+            state.packed(), hover, asked, *[hover] * self.queued, wind, ca.SX(3, 1),
             self._timing(draws), numbers, ca.floor(delay + 0.5), goal,
         )  # fmt: skip
         self.goals = goal.numel()
         return ca.Function("begin", [draws.symbols], [ca.densify(memory)])
-
-    def _hover(self, n: int) -> Any:
-        low, high = self.env.vehicle.rotor_limits
-        return ca.DM(np.full(n, np.clip(self.env.vehicle.weight / n, low, high)))
-
-    def _asked(self, hover: Any) -> Any:
-        """The action that commands hover."""
-        env = self.env
-        low, high = env.vehicle.rotor_limits
-        if env.action == "rotors":
-            return 2 * (hover - low) / (high - low) - 1
-        return ca.vertcat(2 * ca.sum1(hover) / (env.rotors * high) - 1, ca.DM.zeros(3))
 
     def _timing(self, draws: Draws) -> Any:
         """Timing of the rotors, with a lag drawn in `randomise.lag`."""

@@ -12,7 +12,6 @@ import flypend as fp
 from flypend.laws.linearise import linearise
 from flypend.laws.policy import FEATURES, Policy, load, save
 from flypend.learning import flights as flying
-from flypend.learning import world
 from flypend.learning.course import WORSE, Course, Flown, Machines, machine_of
 from flypend.learning.flights import Flights
 from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
@@ -46,8 +45,8 @@ def double(weights):
 @pytest.mark.parametrize(("mount", "drawn"), [("gimbal", False), ("hub", False), ("gimbal", True)])
 def test_the_gradient_is_that_of_the_cost(mount, drawn, monkeypatch):
     """Against central differences, in double precision: all but the kernels' own is of the same programs."""
-    monkeypatch.setattr(world, "STEEPEST", 1e9)  # beyond, a gradient is shortened
-    monkeypatch.setattr(flying, "kernels", world.kernels.__wrapped__)
+    monkeypatch.setattr(flying, "STEEPEST", 1e9)  # beyond, a gradient is shortened
+    monkeypatch.setattr(flying, "kernels", flying.kernels.__wrapped__)
     course = Course(VEHICLE.replace(mount=mount), duration=0.3)
     flights, w = Flights(course, 16), double(weights_of(size=5.0))
     if drawn:
@@ -293,12 +292,12 @@ def test_whatever_rod_touches_a_disc_is_near_an_arm_and_those_above_are_not():
     hub, rng = VEHICLE.replace(mount="hub"), np.random.default_rng(0)
     s = ca.SX.sym("s", 24)
     machine = Scaled(ca.SX(ca.DM(Units.of(hub).numbers(hub))), 4)
-    near_of = ca.Function("near", [s], [world.costs(s, machine)[2]])
+    near_of = ca.Function("near", [s], [flying.costs(s, machine)[2]])
     y = rng.standard_normal((4000, 3)) * [1, 1, 0.2]
     y /= np.linalg.norm(y, axis=1, keepdims=True)
     near = np.array([float(near_of(fp.State(y=row).packed())) for row in y])
     gaps = clearances(y, hub.rotors_from_pivot, hub.reach, hub.body)[:, :4].min(axis=1)
-    touching, above = gaps < 0, np.abs(y[:, 2]) > world.HIGH
+    touching, above = gaps < 0, np.abs(y[:, 2]) > flying.HIGH
     assert touching.sum() > 100
     assert above.sum() > 100
     assert near[touching].min() > 0.2
@@ -311,7 +310,7 @@ def test_whatever_is_not_hover_costs():
 
     s = ca.SX.sym("s", 24)
     machine = Scaled(ca.SX(ca.DM(Units.of(VEHICLE).numbers(VEHICLE))), 4)
-    costs = ca.Function("costs", [s], [world.costs(s, machine)])
+    costs = ca.Function("costs", [s], [flying.costs(s, machine)])
 
     def far(**change):
         return float(costs(fp.State(**({"y": (0, 0, 1)} | change)).packed())[1])

@@ -60,24 +60,12 @@ def rehearse(
     vehicle: Vehicle, true: Vehicle, plant: Plant, *, duration: float = 60.0, latency: float = 0.0,
     bias: float = 0.0, seed: int = 0,
 ) -> Rehearsal:  # fmt: skip
-    """Fly the manoeuvre with the rod hanging, and log it.
+    """Fly the manoeuvre with the rod hanging for `duration` seconds, and log it.
 
-    Parameters
-    ----------
-    vehicle : Vehicle
-        What the pilot's feedback believes in.
-    true : Vehicle
-        What flies.
-    plant : Plant
-        Engine, motors, delay, air and gusts; its `noise` is that of the readings.
-    duration : float
-        s.
-    latency : float
-        By how much poses are older than the row that they stand in, s.
-    bias : float
-        Standard deviation of the gyroscope's bias, rad/s; that of the accelerometer is ten times as many m/s².
-    seed : int
-        Seed of all noise.
+    The pilot's feedback believes in `vehicle`, but `true` flies. The `plant` has engine, motors, delay, air and gusts;
+    its `noise` is that of the readings. Poses are `latency` seconds older than the row that they stand in. The
+    gyroscope's bias has a standard deviation of `bias`, rad/s, that of the accelerometer ten times as many m/s². All
+    noise is drawn by `seed`.
     """
     rng, n, h = np.random.default_rng(seed), len(vehicle.rotor_spins), 1 / RATE
     noise, engine = plant.noise or Noise(), make_engine(true, plant)

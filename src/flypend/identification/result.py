@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from flypend import errors
-from flypend.identification.fit import Fit
+from flypend.identification.fit import FIELDS, Fit
 from flypend.identification.model import CHANNELS, places
-from flypend.identification.numbers import FIELDS
 from flypend.identification.rotors import patterns
 from flypend.model import Vehicle
 from flypend.plants.plant import Plant

@@ -69,16 +69,8 @@ def rotor_forces(
 ) -> Forces:
     """Return the forces on the instants `grid` (k,), s, of commands (N, n) that are held from `t` (N,), s.
 
-    Parameters
-    ----------
-    t, command, grid
-        See above; commands are in N, or fractions with `pwm`.
-    numbers : dict
-        Values by the names of `rotor_table`.
-    most : float
-        Largest force of a rotor, N.
-    pwm : bool
-        Whether a command is a fraction of it.
+    Commands are in N, or with `pwm` fractions of `most`, the largest force of a rotor, N. `numbers` has values by the
+    names of `rotor_table`.
     """
     n = command.shape[1]
     settling, following, within = _programs(n, len(t))

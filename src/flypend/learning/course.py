@@ -46,7 +46,7 @@ class Course:
     excursion : float
         Weight of the excursion, in rod lengths, in the cost.
     throughout, last : float
-        Weights of the distance from hover (see `world.costs`): its mean over the flight, and over its last third.
+        Weights of the distance from hover (see `flights.costs`): its mean over the flight, and over its last third.
     arms : float
         Weight of the largest nearness of the rod to an arm, for a vehicle with a hub.
     bands : bool

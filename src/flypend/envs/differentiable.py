@@ -251,7 +251,8 @@ def _limited(values: Any, most: float) -> Any:
 def _hold(env: Environment, queued: int) -> ca.Function:
     """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
 
-    def held(step: Any, acting: Any, queue: Any, delay: Any) -> list[Any]:
+    def held(*given: Any) -> list[Any]:
+        step, acting, queue, delay = given
         for age in range(queued):
             earlier = queue[age * env.rotors : (age + 1) * env.rotors]
             acting = ca.if_else(delay - step > age * env.steps, earlier, acting)

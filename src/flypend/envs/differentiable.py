@@ -25,16 +25,8 @@ from flypend.model.state import SIZE
 class Stepped(NamedTuple):
     """What a step returns; see `DifferentiableWorlds`.
 
-    Parameters
-    ----------
-    memory : (count, size) of float64
-        The worlds afterwards.
-    observations : (count, k)
-        What is observed then.
-    rewards : (count,)
-        Rewards of the step.
-    ended : (count,) of bool
-        Whether the task has ended, or the world is lost.
+    `memory` (count, size) of float64 are the worlds afterwards, `observations` (count, k) what is observed then,
+    `rewards` (count,) those of the step, and `ended` (count,) of bool whether the task has ended, or the world is lost.
     """
 
     memory: Any

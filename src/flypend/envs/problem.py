@@ -144,6 +144,10 @@ def problem(env: Environment) -> WorldsProblem:
     )
 
 
+def _symbols(**sizes: int) -> list[Any]:
+    return [ca.SX.sym(name, size) for name, size in sizes.items()]
+
+
 class Parts:
     """The functions of an environment, and the layout of the memory that they share."""
 
@@ -195,9 +199,7 @@ class Parts:
     def command(self) -> ca.Function:
         """(state with rotors, action, numbers) → rotor forces."""
         env, vehicle = self.env, self.env.vehicle
-        s, a, p = (
-            ca.SX.sym(name, size) for name, size in (("s", SIZE + env.rotors), ("a", env.actions), ("p", self.numbers))
-        )
+        s, a, p = _symbols(s=SIZE + env.rotors, a=env.actions, p=self.numbers)
         forces = self.asked()(a)
         if env.action == "rates":
             loop = rate_loop(vehicle, env.plant.limits, env.plant.rate_loop_gain, name="loop")
@@ -219,25 +221,22 @@ class Parts:
     def step(self) -> ca.Function:
         """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""
         env, n = self.env, self.env.rotors
-        p = ca.SX.sym("p", self.numbers)
+        s, r, u, w, h, p = _symbols(s=SIZE, r=n, u=n, w=6, h=self.timing, p=self.numbers)
         vehicle: Any = Varied(self.true, p) if self.numbers else self.true
-        s, r, u, w, h = (
-            ca.SX.sym(name, size) for name, size in zip("sruwh", (SIZE, n, n, 6, self.timing), strict=True)
-        )
         plant, commanded = moving(env.plant), p[3:] * u if self.numbers else u
         settled = settle_forces(commanded, vehicle.rotor_limits[1], plant.strength, plant.sag)
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, settled, wind, h, vehicle, plant))
 
-    def _moment(self, change: Any, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
-        """Symbols of time and memory, what they say, and the parts of the memory, with the `change` of the action.
+    def _moment(self, action: Any = None, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
+        """Symbols of time and memory, what they say after an `action`, if there is one, and the parts of the memory.
 
         What is `known` of state and rotors is their estimate, if there is one.
         """
-        env, t = self.env, ca.SX.sym("t")
+        env = self.env
         lengths = [*self.lengths, self.goals]
         estimate = self.estimates.record.length if self.estimates is not None and known else 0
-        memory = ca.SX.sym("memory", sum(lengths) + estimate)
+        t, memory = _symbols(t=1, memory=sum(lengths) + estimate)
         parts = ca.vertsplit(memory, [0, *np.cumsum([*lengths, estimate]).tolist()])
         estimated = parts.pop()
         if estimate:
@@ -245,9 +244,10 @@ class Parts:
         state, numbers = State.symbolic(parts[0]), parts[-1]
         x, x_dot = env.task.goal(t, numbers)
         error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
+        change = ca.SX.zeros(env.actions) if action is None else action - parts[2]
         reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
         now = Moment(
-            time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change(parts[2]),
+            time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change,
             end=state.x + reach * state.y, end_dot=state.x_dot + reach * state.y_dot, goal=numbers,
             vehicle=env.vehicle,
         )  # fmt: skip
@@ -256,7 +256,7 @@ class Parts:
     def observe(self) -> ca.Function:
         """(time, memory) → observation; see `flypend.envs`."""
         env = self.env
-        t, memory, now, parts = self._moment(lambda before: ca.SX.zeros(env.actions), known=True)
+        t, memory, now, parts = self._moment(known=True)
         low, high = env.vehicle.rotor_limits
         here = env.task.goal(t, parts[-1])[0]
         coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
@@ -271,6 +271,6 @@ class Parts:
     def judge(self) -> ca.Function:
         """(time, memory, action) → (reward, ended)."""
         action = ca.SX.sym("a", self.env.actions)
-        t, memory, now, _ = self._moment(lambda before: action - before)
+        t, memory, now, _ = self._moment(action)
         reward, ended = self.env.task.reward(now), self.env.task.ended(now)
         return ca.Function("judge", [t, memory, action], [ca.densify(reward), ca.densify(ended)])

@@ -55,14 +55,10 @@ class Search:
     """What points θ (p,) of a search stand for."""
 
     vehicle: Vehicle  # the guess
+    table: dict[str, int]  # names and lengths of what is searched: what moves, the rotors, what is read
     guess: Numbers  # (p,): where the search begins
     spread: Numbers  # (p,): standard deviation of the guess; 0 for what is not searched
     logarithmic: Numbers  # (p,) of bool: what is searched as the logarithm of its ratio to the guess
-
-    @property
-    def table(self) -> dict[str, int]:
-        """Names and lengths of what is searched: what moves, the rotors, what is read."""
-        return table(len(self.vehicle.rotor_spins))
 
     def values(self, theta: Numbers) -> dict[str, Any]:
         """Return the numbers at θ (p,) by name."""
@@ -84,11 +80,6 @@ class Search:
             high[place] = MOST.get(name, np.inf) - self.guess[place]
         held = np.clip(theta, low, high)
         return np.where(self.logarithmic, np.clip(theta, -1.5, 1.5), held)  # a factor of 4.5 either way
-
-
-def table(rotors: int) -> dict[str, int]:
-    """Return names and lengths of all numbers of a machine with so many rotors."""
-    return {**MOVING, **rotor_table(rotors), **READING}
 
 
 def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
@@ -120,11 +111,12 @@ def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
         spreads["curve"] = 0.0
     if not accelerometer:
         spreads["force_bias"] = 0.0
+    table = {**MOVING, **rotor_table(n), **READING}
     parts = [
         [np.broadcast_to(number, size) for number in (given.get(name, 0.0), spreads[name], name in RATIOS)]
-        for name, size in table(n).items()
+        for name, size in table.items()
     ]
-    return Search(vehicle, *map(np.concatenate, zip(*parts, strict=True)))
+    return Search(vehicle, table, *map(np.concatenate, zip(*parts, strict=True)))
 
 
 @dataclass(frozen=True)
@@ -175,7 +167,9 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
             noises = replace(noises, driving=driving)
     sandwich = bread @ (scores.T @ scores + np.diag(prior[free])) @ bread
     covariance = np.zeros((len(theta),) * 2)
-    covariance[np.ix_(free, free)] = _wider(sandwich, bread)
+    # The larger standard deviations of both, correlated as by the scores.
+    widen = np.sqrt(np.maximum(1.0, np.diag(bread) / np.maximum(np.diag(sandwich), 1e-300)))
+    covariance[np.ix_(free, free)] = sandwich * np.outer(widen, widen)
     return Fit(search, theta, covariance, found, noises, k + 1, converged)
 
 
@@ -226,9 +220,3 @@ def _reading_variances(log: Log) -> Any:
         variance = usual / (20 * median)  # 1² + 3² + 3² + 1²
         found.append(np.clip(variance if np.isfinite(variance) else READ[name] ** 2, 1e-4 * READ[name] ** 2, None))
     return np.array(found)
-
-
-def _wider(one: Any, other: Any) -> Any:
-    """Return a covariance with the larger standard deviations of two, correlated as the first."""
-    widen = np.sqrt(np.maximum(1.0, np.diag(other) / np.maximum(np.diag(one), 1e-300)))
-    return one * np.outer(widen, widen)

@@ -246,6 +246,14 @@ def test_another_training_is_not_taken_up(tmp_path):
     assert not Learner(small()).resume(tmp_path / "none.npz")
 
 
+def test_a_round_without_steps_moves_nothing():
+    learner = Learner(small(rounds=1, steps=0))
+    before = {name: array.copy() for name, array in learner.weights.items()}
+    learner.imitate()
+    assert all(np.array_equal(array, before[name]) for name, array in learner.weights.items())
+    assert len(learner.curve) == 1
+
+
 def test_imitation_and_then_descent_make_flights_cheaper():
     """A small training: a third of the cost of the first flights of the network is gone, then another tenth."""
     learner = Learner(
@@ -378,7 +386,7 @@ def test_a_law_learned_within_bands_flies_them_through_motion_capture(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "field"),
     [({"batch": 40}, "batch"), ({"hidden": (200, 200)}, "hidden"), ({"hidden": (0, 4)}, "hidden"),
-     ({"rounds": -1}, "rounds")],
+     ({"rounds": -1}, "rounds"), ({"updates": 1.5}, "updates"), ({"batch": 32.0}, "batch")],
 )  # fmt: skip
 def test_what_is_not_possible_is_refused(changes, field):
     with pytest.raises(fp.InputError, match=field):

@@ -70,8 +70,8 @@ class Training:
         if vehicle.mount == "cup":
             raise InputError("mount", "gimbal or hub: from random starts a rod leaves its cup at once", "cup")
         for name in ("rounds", "updates", "steps"):
-            errors.number(name, getattr(self, name), at_least=0)
-        if self.batch < 16 or self.batch % 16:
+            errors.integer(name, getattr(self, name), 0)
+        if errors.integer("batch", self.batch, 16) % 16:
             raise InputError("batch", "a multiple of 16", repr(self.batch))
         k, m = self.hidden
         size = 18 * (k + len(vehicle.rotor_spins)) + k + m * k + m + len(vehicle.rotor_spins) * m

@@ -130,18 +130,12 @@ def problem(env: Environment) -> WorldsProblem:
     """Return the programs of `env`."""
     parts = Parts(env)
     return WorldsProblem(
-        begin=lower(parts.begin()),
-        command=lower(parts.command()),
-        inner=env.action == "rates",
-        step=lower(parts.step()),
-        observe=lower(parts.observe()),
-        judge=lower(parts.judge()),
-        queued=parts.queued,
-        steps=env.steps,
-        length=1 / env.plant.rate,
+        begin=lower(parts.begin()), command=lower(parts.command()), inner=env.action == "rates",
+        step=lower(parts.step()), observe=lower(parts.observe()), judge=lower(parts.judge()),
+        queued=parts.queued, steps=env.steps, length=1 / env.plant.rate,
         touch=touch_of(env.vehicle, "up", by_rotors=True, floor=env.plant.floor),
         estimating=None if parts.estimates is None else parts.estimates.programs(parts.asked()),
-    )
+    )  # fmt: skip
 
 
 def _symbols(**sizes: int) -> list[Any]:

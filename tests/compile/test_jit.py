@@ -152,7 +152,7 @@ WRITERS = (
     "__init__.py", "compile/tableaus.toml", "compile/methods.py", "compile/problem.py", "compile/routine.py",
     "compile/llvm/emit.py", "compile/loops/runge_kutta_8x64_p64.bc", "flight/kernels/ideal.py",
     "flight/kernels/pieces.py", "envs/kernel.py",
-    "planning/solver.py", "plants/equations.py", "learning/world.py", "model/state.py",
+    "planning/solver.py", "plants/equations.py", "learning/flights.py", "model/state.py",
 )  # fmt: skip
 
 

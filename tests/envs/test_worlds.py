@@ -1,8 +1,10 @@
 """Worlds stepped by the kernel: the physics of `simulate`, seeds, ends, rewards, and what differs between them."""
 
 import copy
+import inspect
 import pickle
 import re
+from dataclasses import replace
 
 import casadi as ca
 import gymnasium
@@ -13,7 +15,7 @@ from gymnasium.utils.env_checker import check_env
 
 import flypend as fp
 from benchmarks import omnidrones_tasks
-from flypend.envs import Randomisation, VectorWorlds, World, environment
+from flypend.envs import DifferentiableWorlds, Randomisation, VectorWorlds, World, environment
 from flypend.envs.draws import Draws
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
@@ -580,7 +582,8 @@ def test_a_rotation_that_a_task_draws_is_one_and_any_is_as_likely():
         ({"action": "speed"}, "action"), ({"randomise": {"mass": (1.2, 0.8)}}, "randomise.mass"),
         ({"randomise": {"mass": (0.0, 1.0)}}, "randomise.mass"), ({"num_envs": 0}, "num_envs"),
         ({"plant": PHYSICS.replace(noise=fp.Noise(x=1e-3))}, "plant"), ({"duration": -1}, "duration"),
-        ({"task": "catch_in_cup", "mount": "hub"}, "mount"), ({"mount": "bogus"}, "mount"),
+        ({"task": "catch_in_cup", "mount": "hub"}, "mount"), ({"task": "swing_up", "mount": "cup"}, "mount"),
+        ({"task": "swing_up", "shaped": True, "mount": "cup"}, "mount"), ({"mount": "bogus"}, "mount"),
         ({"history": -1}, "history"), ({"history": 1.5}, "history"),
         ({"observation_delay": -1}, "observation_delay"), ({"workers": 0}, "workers"),
         ({"num_envs": True}, "num_envs"), ({"randomise": {"mas": (1, 1)}}, "randomise.mas"),
@@ -596,6 +599,26 @@ def test_a_rotation_that_a_task_draws_is_one_and_any_is_as_likely():
 def test_what_is_not_possible_is_refused(arguments, field):
     with pytest.raises(fp.InputError, match=rf"^{re.escape(field)}: "):
         VectorWorlds(**arguments)
+
+
+@pytest.mark.parametrize("kind", [World, VectorWorlds, DifferentiableWorlds])
+def test_an_unknown_argument_is_told_what_there_is(kind):
+    with pytest.raises(fp.InputError) as refused:
+        kind("track", raet=3)
+    listed = refused.value.expected.removeprefix("one of ").split(", ")
+    own = {name for name in inspect.signature(kind).parameters if name != "arguments"}
+    assert own | {"plant", "vehicle", "sensors", "turn_rate"} <= set(listed)
+    assert len(set(listed)) == len(listed)
+    assert ("history" in listed) == (kind is not DifferentiableWorlds)
+
+
+def test_a_task_may_bring_any_argument_of_its_environments():
+    task = replace(environment("balance").task, defaults={"action": "rates", "duration": 2.0})
+    assert environment(task).action == "rates"
+    assert environment(task).task.duration == 2.0
+    assert environment(task, action="wrench", duration=3.0).action == "wrench"
+    with pytest.raises(fp.InputError, match=r"^task\.defaults\.speed: "):
+        environment(replace(task, defaults={"speed": 3}))
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,18 @@ import pytest
 
 import flypend as fp
 from flypend.identification.manoeuvre import _specific_force, rehearse
-from flypend.identification.model import ERROR, LOCAL, MOVING, READING, correct, local_error, moves, reads, sizes
-from flypend.identification.numbers import places
+from flypend.identification.model import (
+    ERROR,
+    LOCAL,
+    MOVING,
+    READING,
+    correct,
+    local_error,
+    moves,
+    places,
+    reads,
+    sizes,
+)
 from flypend.identification.rotors import patterns, rotor_forces, rotor_slopes, rotor_table
 from flypend.plants.actuation import make_engine
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.identification.formats import USD, parse_usd
 from flypend.identification.log import CRAZYFLIE, parse_log, read_log
-from flypend.identification.usd import MAGIC, parse_usd
 from tests.identification.test_log import table, text
 
 FIRST = 81_000_000  # µs; the vehicle was on for a while
@@ -29,7 +29,7 @@ def kind(number, name, variables):
 
 def card(variables, rows):
     """A log by the firmware's usddeck.c: (µs, values) of the variables, and another event after each."""
-    body = MAGIC + struct.pack("<H", 2) + kind(0xFFFF, "fixedFrequency", variables)
+    body = USD + struct.pack("<H", 2) + kind(0xFFFF, "fixedFrequency", variables)
     body += kind(3, "estTDOA", {"idA": "B", "distance": "f", "half": "e"})
     layout = "<HQ" + "".join(variables.values())
     for us, values in rows:
@@ -103,7 +103,7 @@ GOOD = flight()[0][:-4][:4000]
 
 
 @settings(max_examples=300, deadline=None)
-@given(st.integers(len(MAGIC), len(GOOD)), st.integers(0, 40), st.binary(max_size=12))
+@given(st.integers(len(USD), len(GOOD)), st.integers(0, 40), st.binary(max_size=12))
 def test_whatever_a_file_holds_behind_its_checksum_is_read_or_refused(place, cut, put):
     try:
         found = parse_usd(signed(GOOD[:place] + put + GOOD[place + cut :]))

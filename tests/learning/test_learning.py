@@ -12,13 +12,11 @@ import flypend as fp
 from flypend.laws.learned import FEATURES, Policy, load, save
 from flypend.laws.linearise import linearise
 from flypend.learning import flights as flying
-from flypend.learning import world
-from flypend.learning.course import Course
+from flypend.learning.course import WORSE, Course, Flown, Machines, machine_of
 from flypend.learning.flights import Flights
-from flypend.learning.machines import WORSE, Flown, Machines, machine_of
 from flypend.learning.network import Adam, backward, first_weights, forward, with_hover
 from flypend.learning.teacher import Imitation, Teacher, direct
-from flypend.learning.training import AMONG, Learner, Scouts, Training, starts, usual
+from flypend.learning.training import AMONG, Learner, Training, dangerous, starts, usual
 from flypend.model.mount import clearances
 from flypend.planning.dynamics import Scaled, Units
 from flypend.plants.bands import world_of
@@ -47,8 +45,8 @@ def double(weights):
 @pytest.mark.parametrize(("mount", "drawn"), [("gimbal", False), ("hub", False), ("gimbal", True)])
 def test_the_gradient_is_that_of_the_cost(mount, drawn, monkeypatch):
     """Against central differences, in double precision: all but the kernels' own is of the same programs."""
-    monkeypatch.setattr(world, "STEEPEST", 1e9)  # beyond, a gradient is shortened
-    monkeypatch.setattr(flying, "kernels", world.kernels.__wrapped__)
+    monkeypatch.setattr(flying, "STEEPEST", 1e9)  # beyond, a gradient is shortened
+    monkeypatch.setattr(flying, "kernels", flying.kernels.__wrapped__)
     course = Course(VEHICLE.replace(mount=mount), duration=0.3)
     flights, w = Flights(course, 16), double(weights_of(size=5.0))
     if drawn:
@@ -248,6 +246,14 @@ def test_another_training_is_not_taken_up(tmp_path):
     assert not Learner(small()).resume(tmp_path / "none.npz")
 
 
+def test_a_round_without_steps_moves_nothing():
+    learner = Learner(small(rounds=1, steps=0))
+    before = {name: array.copy() for name, array in learner.weights.items()}
+    learner.imitate()
+    assert all(np.array_equal(array, before[name]) for name, array in learner.weights.items())
+    assert len(learner.curve) == 1
+
+
 def test_imitation_and_then_descent_make_flights_cheaper():
     """A small training: a third of the cost of the first flights of the network is gone, then another tenth."""
     learner = Learner(
@@ -261,6 +267,14 @@ def test_imitation_and_then_descent_make_flights_cheaper():
     assert learner.curve[-1].cost < 0.9 * imitated.cost
 
 
+def test_starts_touch_nothing_wherever_the_pivot_is():
+    hub = VEHICLE.replace(mount="hub", pivot_offset=(0.0, 0.0, 0.05))
+    begin = starts(hub, np.random.default_rng(4), 256)
+    states = fp.State.trusted((begin * Units.of(hub).states(4))[:, :24])
+    rods = np.einsum("nji,nj->ni", states.R, states.y)
+    assert clearances(rods, hub.rotors_from_pivot, hub.reach, hub.body).min() > 0
+
+
 def nearest(course, weights, begin):
     flights = Flights(course, len(begin))
     flights.fly(weights, begin)
@@ -269,9 +283,9 @@ def nearest(course, weights, begin):
 
 def test_scouts_keep_the_starts_whose_rods_come_nearest_to_an_arm():
     hub = VEHICLE.replace(mount="hub")
-    scouts, w = Scouts(Course(hub, duration=2.0), 16), weights_of()
+    scouts, w = Learner(Training(Course(hub, duration=2.0), batch=32, hidden=(16, 16)))._scouts, weights_of()
     begin = starts(hub, np.random.default_rng(4), scouts.count)
-    kept = scouts.dangerous(w, begin)
+    kept = dangerous(scouts, w, begin, 16)
     assert scouts.count == AMONG * len(kept)
     near = nearest(Course(hub, duration=0.3), w, begin)
     rest = begin[~np.isin(begin, kept).all(axis=1)]
@@ -286,12 +300,12 @@ def test_whatever_rod_touches_a_disc_is_near_an_arm_and_those_above_are_not():
     hub, rng = VEHICLE.replace(mount="hub"), np.random.default_rng(0)
     s = ca.SX.sym("s", 24)
     machine = Scaled(ca.SX(ca.DM(Units.of(hub).numbers(hub))), 4)
-    near_of = ca.Function("near", [s], [world.costs(s, machine)[2]])
+    near_of = ca.Function("near", [s], [flying.costs(s, machine)[2]])
     y = rng.standard_normal((4000, 3)) * [1, 1, 0.2]
     y /= np.linalg.norm(y, axis=1, keepdims=True)
     near = np.array([float(near_of(fp.State(y=row).packed())) for row in y])
     gaps = clearances(y, hub.rotors_from_pivot, hub.reach, hub.body)[:, :4].min(axis=1)
-    touching, above = gaps < 0, np.abs(y[:, 2]) > world.HIGH
+    touching, above = gaps < 0, np.abs(y[:, 2]) > flying.HIGH
     assert touching.sum() > 100
     assert above.sum() > 100
     assert near[touching].min() > 0.2
@@ -304,7 +318,7 @@ def test_whatever_is_not_hover_costs():
 
     s = ca.SX.sym("s", 24)
     machine = Scaled(ca.SX(ca.DM(Units.of(VEHICLE).numbers(VEHICLE))), 4)
-    costs = ca.Function("costs", [s], [world.costs(s, machine)])
+    costs = ca.Function("costs", [s], [flying.costs(s, machine)])
 
     def far(**change):
         return float(costs(fp.State(**({"y": (0, 0, 1)} | change)).packed())[1])
@@ -372,7 +386,7 @@ def test_a_law_learned_within_bands_flies_them_through_motion_capture(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "field"),
     [({"batch": 40}, "batch"), ({"hidden": (200, 200)}, "hidden"), ({"hidden": (0, 4)}, "hidden"),
-     ({"rounds": -1}, "rounds")],
+     ({"rounds": -1}, "rounds"), ({"updates": 1.5}, "updates"), ({"batch": 32.0}, "batch")],
 )  # fmt: skip
 def test_what_is_not_possible_is_refused(changes, field):
     with pytest.raises(fp.InputError, match=field):

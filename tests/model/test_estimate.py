@@ -109,7 +109,8 @@ def test_the_text_is_the_vehicle_with_a_source_for_every_number():
 
 
 def test_bands_are_taken_as_known_before_by_identification():
-    from flypend.identification.numbers import places, search_from
+    from flypend.identification.fit import search_from
+    from flypend.identification.model import places
 
     mine = fp.Vehicle.estimate(**MINE)
     search = search_from(mine, pwm=False, accelerometer=True)

@@ -37,20 +37,9 @@ from flypend.envs.task import Moment, Task, balance, catch_in_cup, swing_up, tra
 from flypend.envs.vector import VectorWorlds  # noqa: E402
 
 __all__ = [
-    "DifferentiableWorlds",
-    "Environment",
-    "Moment",
-    "Randomisation",
-    "SavedState",
-    "Task",
-    "VectorWorlds",
-    "World",
-    "balance",
-    "catch_in_cup",
-    "environment",
-    "swing_up",
-    "track",
-]
+    "DifferentiableWorlds", "Environment", "Moment", "Randomisation", "SavedState", "Task", "VectorWorlds", "World",
+    "balance", "catch_in_cup", "environment", "swing_up", "track",
+]  # fmt: skip
 
 _IDS: dict[str, dict[str, Any]] = {made().name: {"task": task} for task, made in TASKS.items()}
 _IDS["SwingUpShaped"] = {"task": "swing_up", "shaped": True}

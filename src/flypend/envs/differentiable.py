@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property, lru_cache
 from importlib import import_module
 from typing import Any, NamedTuple
@@ -16,7 +16,7 @@ from flypend.compile.chain import Chain
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
 from flypend.compile.llvm.worlds import BOUND
 from flypend.envs.kernel import Worlds, in_threads, shares_of
-from flypend.envs.make import environment
+from flypend.envs.make import made_by
 from flypend.envs.problem import Environment, Parts
 from flypend.errors import InputError
 from flypend.model.state import SIZE
@@ -25,16 +25,8 @@ from flypend.model.state import SIZE
 class Stepped(NamedTuple):
     """What a step returns; see `DifferentiableWorlds`.
 
-    Parameters
-    ----------
-    memory : (count, size) of float64
-        The worlds afterwards.
-    observations : (count, k)
-        What is observed then.
-    rewards : (count,)
-        Rewards of the step.
-    ended : (count,) of bool
-        Whether the task has ended, or the world is lost.
+    `memory` (count, size) of float64 are the worlds afterwards, `observations` (count, k) what is observed then,
+    `rewards` (count,) those of the step, and `ended` (count,) of bool whether the task has ended, or the world is lost.
     """
 
     memory: Any
@@ -68,7 +60,7 @@ class DifferentiableWorlds:
     """
 
     def __init__(self, task: Any = "balance", *, workers: int | None = None, **arguments: Any) -> None:
-        self.env = environment(task, **arguments)
+        self.env = made_by(type(self), task, arguments)
         if self.env.plant.floor is not None:
             raise InputError("plant.floor", "none: touching has no derivative", f"{self.env.plant.floor:g}")
         if self.env.vehicle.mount != "gimbal":
@@ -181,13 +173,8 @@ class DifferentiableWorlds:
         """Return what program number `which` makes of `rows` (count, …) of its inputs, in rows."""
         program, loop, count = self._programs[which], self._loops[which], len(rows[0])
         groups = -(-count // WIDTH)
-        inputs, outputs = (
-            [lanes(groups, length) for length in lengths]
-            for lengths in (
-                [program.nnz_in(i) for i in range(program.n_in())],
-                [program.nnz_out(i) for i in range(program.n_out())],
-            )
-        )
+        inputs = [lanes(groups, program.nnz_in(i)) for i in range(program.n_in())]
+        outputs = [lanes(groups, program.nnz_out(i)) for i in range(program.n_out())]
         filled = np.minimum(np.arange(groups * WIDTH), count - 1)  # the last world fills the last group
         for array, given in zip(inputs, rows, strict=True):
             array[:] = np.asarray(given)[filled].reshape(groups, WIDTH, -1).transpose(0, 2, 1)
@@ -211,22 +198,24 @@ def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
     memory, action = ca.MX.sym("memory", sum(lengths)), ca.MX.sym("action", env.actions)
     before = ca.vertsplit(memory, [0, *np.cumsum(lengths).tolist()])
     clock, state, rotors, acted, queue, wind, timing, numbers, delay, goal = before
-    command, step, joined = parts.command(), parts.step(), _join("joined", SIZE, env.rotors)
-    asked = chain.call(_limit(env.actions, 1.0, "asked"), action)
+    command, step = parts.command(), parts.step()
+    joined = _scalar("joined", [SIZE, env.rotors], lambda *vectors: [ca.vertcat(*vectors)])
+    asked = chain.call(_scalar("asked", [env.actions], lambda a: [_limited(a, 1.0)]), action)
     inner = env.action == "rates"
-    forces = None if inner else chain.call(command, chain.call(joined, state, rotors), asked, numbers)
     for i in range(env.steps):
-        if inner:
+        if inner or i == 0:
             forces = chain.call(command, chain.call(joined, state, rotors), asked, numbers)
         held = chain.call(_hold(env, parts.queued), ca.MX(i), forces, queue, delay) if parts.queued else forces
         state, rotors = chain.call(step, state, rotors, held, wind, timing, numbers)
     if parts.queued:
-        queue = chain.call(_queue(env.rotors, parts.queued), forces, queue)
-    clock = chain.call(_tick(), clock)
+        sizes = [env.rotors, queue.numel()]
+        queue = chain.call(
+            _scalar("queued", sizes, lambda new, old: [ca.vertcat(new, old[: -env.rotors])]), forces, queue
+        )
+    clock = chain.call(_scalar("ticked", [1], lambda clock: [clock + 1]), clock)
     rest = [queue, wind, timing, numbers, delay, goal]
-    observe, judge = _observe(parts, lengths), _judge(parts, lengths)
-    seen = chain.call(observe, clock, state, rotors, asked, *rest)
-    reward, ended, lost = chain.call(judge, clock, state, rotors, acted, *rest, asked)
+    seen = chain.call(_observe(parts, lengths), clock, state, rotors, asked, *rest)
+    reward, ended, lost = chain.call(_judge(parts, lengths), clock, state, rotors, acted, *rest, asked)
     after = [clock, state, rotors, asked, *rest]
     judged = ca.vertcat(reward, ended, lost)
     to_after = ca.MX.sym("to_memory", memory.numel())
@@ -241,54 +230,47 @@ def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
     )
 
 
-def _symbols(lengths: Sequence[int]) -> list[ca.SX]:
-    return [ca.SX.sym(f"v{i}", length) for i, length in enumerate(lengths)]
+def _scalar(name: str, lengths: Sequence[int], made: Callable[..., list[Any]]) -> ca.Function:
+    """Return the function of vectors of these `lengths` whose outputs are what is `made` of their symbols."""
+    vectors = [ca.SX.sym(f"v{i}", length) for i, length in enumerate(lengths)]
+    return ca.Function(name, vectors, list(map(ca.densify, made(*vectors))))
 
 
-def _join(name: str, *lengths: int) -> ca.Function:
-    vectors = _symbols(lengths)
-    return ca.Function(name, vectors, [ca.vertcat(*vectors)])
-
-
-def _limit(length: int, most: float, name: str) -> ca.Function:
-    value = ca.SX.sym("value", length)
-    return ca.Function(name, [value], [ca.fmax(ca.fmin(value, most), -most)])
-
-
-def _tick() -> ca.Function:
-    clock = ca.SX.sym("clock")
-    return ca.Function("ticked", [clock], [clock + 1])
+def _limited(values: Any, most: float) -> Any:
+    return ca.fmax(ca.fmin(values, most), -most)
 
 
 def _hold(env: Environment, queued: int) -> ca.Function:
     """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
-    step, forces, queue, delay = _symbols([1, env.rotors, queued * env.rotors, 1])
-    acting = forces
-    for age in range(queued):
-        earlier = queue[age * env.rotors : (age + 1) * env.rotors]
-        acting = ca.if_else(delay - step > age * env.steps, earlier, acting)
-    return ca.Function("held", [step, forces, queue, delay], [ca.densify(acting)])
 
+    def held(*given: Any) -> list[Any]:
+        step, acting, queue, delay = given
+        for age in range(queued):
+            earlier = queue[age * env.rotors : (age + 1) * env.rotors]
+            acting = ca.if_else(delay - step > age * env.steps, earlier, acting)
+        return [acting]
 
-def _queue(rotors: int, queued: int) -> ca.Function:
-    forces, queue = _symbols([rotors, queued * rotors])
-    return ca.Function("queued", [forces, queue], [ca.vertcat(forces, queue[: (queued - 1) * rotors])])
+    return _scalar("held", [1, env.rotors, queued * env.rotors, 1], held)
 
 
 def _observe(parts: Parts, lengths: Sequence[int]) -> ca.Function:
     """(parts of the memory) → observation, limited as in compile/loops/worlds.cpp."""
-    clock, *memory = vectors = _symbols(lengths)
-    seen = parts.observe()(clock / parts.env.rate, ca.vertcat(*memory))
-    return ca.Function("observe", vectors, [_limit(seen.numel(), BOUND, "bounded")(seen)])
+
+    def observe(clock: Any, *memory: Any) -> list[Any]:
+        return [_limited(parts.observe()(clock / parts.env.rate, ca.vertcat(*memory)), BOUND)]
+
+    return _scalar("observe", lengths, observe)
 
 
 def _judge(parts: Parts, lengths: Sequence[int]) -> ca.Function:
     """(parts of the memory, with the action before; action) → reward, ended, lost."""
-    clock, *memory = vectors = _symbols(lengths)
-    action = ca.SX.sym("action", parts.env.actions)
-    reward, ended = parts.judge()(clock / parts.env.rate, ca.vertcat(*memory), action)
-    lost = ca.logic_not(ca.sumsqr(ca.vertcat(memory[0], memory[1])) < BOUND**2)
-    return ca.Function("judge", [*vectors, action], [reward, ca.densify(ended), lost])
+
+    def judge(clock: Any, *given: Any) -> list[Any]:
+        *memory, action = given
+        reward, ended = parts.judge()(clock / parts.env.rate, ca.vertcat(*memory), action)
+        return [reward, ended, ca.logic_not(ca.sumsqr(ca.vertcat(memory[0], memory[1])) < BOUND**2)]
+
+    return _scalar("judge", [*lengths, parts.env.actions], judge)
 
 
 @lru_cache(maxsize=1)

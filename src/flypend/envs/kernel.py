@@ -13,7 +13,6 @@ from functools import cache, lru_cache
 from importlib import metadata
 from typing import Any
 
-import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
@@ -241,11 +240,6 @@ class Worlds:
     def times(self) -> NDArray[np.float64]:
         """Times since they began (count,), s."""
         return self.arrays["memories"][:, 0].reshape(-1)[: self.count] / self.env.rate
-
-
-def goal_at(env: Environment, time: float, numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return where the goal of `env` is (3,), m, at a `time`, s, if these `numbers` (k,) describe it."""
-    return np.array(ca.evalf(ca.SX(env.task.goal(ca.SX(time), ca.SX(numbers))[0]))).ravel()
 
 
 def _unpickle(about: Mapping[str, str], saved: bytes, *made: Any) -> Worlds:

@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, replace
 from inspect import signature
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-from gymnasium.spaces import Box
-
 from flypend import errors
-from flypend.compile.llvm.worlds import BOUND
 from flypend.envs import task as tasks
-from flypend.envs.problem import Action, Environment, Observe
+from flypend.envs.problem import Environment
 from flypend.envs.randomise import Randomisation
 from flypend.envs.task import Task
 from flypend.errors import InputError
-from flypend.laws.seen import Attitude
 from flypend.model import Vehicle
 from flypend.model.shipped import vehicle as vehicle_named
-from flypend.plants.plant import ROTORS, Sampled
+from flypend.plants.plant import ROTORS
 
 TASKS: Mapping[str, Callable[..., Task]] = {
     "balance": tasks.balance, "swing_up": tasks.swing_up, "track": tasks.track, "catch_in_cup": tasks.catch_in_cup,
 }  # fmt: skip
-DEFAULTS: Mapping[str, Any] = {"vehicle": "hehn2011", "rate": 100.0, "randomise": Randomisation()}
 PHYSICS = ROTORS.replace(rate=1000.0)
-MOST_KEPT = 1000  # observations: ten seconds at 100 Hz, and 100 kB a world
+SETTINGS = ("plant", "action", "attitude", "observe", "sensors")  # arguments that go to an Environment as they are
+DEFAULTS: Mapping[str, Any] = {"vehicle": "hehn2011", "plant": PHYSICS, "rate": 100.0, "randomise": Randomisation()}
 
 
 class UnknownArgumentError(InputError, TypeError):
@@ -46,13 +41,8 @@ def environment(
     *,
     vehicle: str | Path | Vehicle | None = None,
     mount: str | None = None,
-    plant: Sampled = PHYSICS,
     rate: float | None = None,
-    action: Action = "rotors",
-    attitude: Attitude = "matrix",
-    observe: Observe = "all",
     randomise: Randomisation | Mapping[str, Any] | Literal["bands"] | None = None,
-    sensors: Any = None,
     duration: float | None = None,
     **about: Any,
 ) -> Environment:
@@ -65,9 +55,7 @@ def environment(
     vehicle : str, Path or Vehicle, optional
         Name, TOML file or vehicle; default that of the task, or hehn2011.
     mount : str, optional
-        Replaces the vehicle's mount; the task "catch_in_cup" needs a cup.
-    plant, action, attitude, observe, sensors
-        See `flypend.envs.Environment`.
+        Replaces the vehicle's mount; the task "catch_in_cup" needs a cup, and "swing_up" any other.
     rate : float, optional
         Actions per second; default that of the task, or 100 Hz.
     randomise : Randomisation, dict or "bands", optional
@@ -75,6 +63,8 @@ def environment(
         Default that of the task, or nothing.
     duration : float, optional
         Seconds after which a world is cut off; default that of the task.
+    plant, action, attitude, observe, sensors
+        See `flypend.envs.Environment`. The default plant has a rate of 1 kHz.
     about
         Arguments of the task: those of `flypend.envs.track`.
 
@@ -83,36 +73,46 @@ def environment(
     InputError
         If an argument is unknown or out of range.
     """
-    made = _task(task, about)
-    given = {"vehicle": vehicle, "rate": rate, "randomise": randomise}
-    chosen = {**DEFAULTS, **made.defaults, **{name: value for name, value in given.items() if value is not None}}
-    machine = chosen["vehicle"] if isinstance(chosen["vehicle"], Vehicle) else vehicle_named(chosen["vehicle"])
-    ranges = _ranges(chosen["randomise"], machine)
+    given = {"vehicle": vehicle, "mount": mount, "rate": rate, "randomise": randomise, "duration": duration}
+    given = {name: value for name, value in given.items() if value is not None}
+    given |= {name: about.pop(name) for name in SETTINGS if name in about}
+    check_known(task, about)
+    made = _maker(task)(**about)
+    errors.only_known("task.defaults", made.defaults, ARGUMENTS[1:])  # but for the task
+    chosen = {**DEFAULTS, **made.defaults, **given}
+    machine = chosen.pop("vehicle")
+    machine = machine if isinstance(machine, Vehicle) else vehicle_named(machine)
+    ranges = _ranges(chosen.pop("randomise"), machine)
     machine = machine.commanded()
-    wanted = "cup" if made.name == "CatchInCup" and mount is None else mount
-    if wanted is not None:
+    if (wanted := chosen.pop("mount", None)) is not None:
         machine = machine.replace(mount=wanted)
-    if made.name == "CatchInCup" and machine.mount != "cup":
-        raise InputError("mount", "'cup', for the task catch_in_cup", repr(machine.mount))
-    if duration is not None:
-        made = replace(made, duration=duration)
-    return Environment(
-        made, machine, plant, rate=chosen["rate"], action=action, attitude=attitude, observe=observe, randomise=ranges,
-        sensors=sensors,
-    )  # fmt: skip
+    if (seconds := chosen.pop("duration", None)) is not None:
+        made = replace(made, duration=seconds)
+    return Environment(made, machine, randomise=ranges, **chosen)
 
 
-def _task(task: str | Task, about: Mapping[str, Any]) -> Task:
-    """The task itself, or that of this name with its own arguments."""
-    made: Callable[..., Task]
-    made = (lambda: task) if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)]
-    common = [name for name in signature(environment).parameters if name != "about"]
+ARGUMENTS = [*(name for name in signature(environment).parameters if name != "about"), *SETTINGS]
+
+
+def _maker(task: str | Task) -> Callable[..., Task]:
+    """What returns the task itself, or that of this name from its own arguments."""
+    return (lambda: task) if isinstance(task, Task) else TASKS[errors.one_of("task", task, TASKS)]
+
+
+def check_known(task: str | Task, about: Iterable[str], beside: Iterable[str] = ()) -> None:
+    """Raise `UnknownArgumentError` for an argument that no environment of the task has, nor what is `beside` it."""
     try:
-        errors.only_known("", about, [*common, *signature(made).parameters])
+        errors.only_known("", about, dict.fromkeys([*ARGUMENTS, *beside, *signature(_maker(task)).parameters]))
     except InputError as error:
         got = str(error.got).replace(repr(error.field), f"an unexpected keyword argument {error.field!r}", 1)
         raise UnknownArgumentError(error.field, error.expected, got) from None
-    return made(**about)
+
+
+def made_by(owner: type, task: str | Task, arguments: Mapping[str, Any]) -> Environment:
+    """Return the `environment` of the `task` and `arguments`; those that the `owner` takes itself are known, too."""
+    own = signature(owner).parameters.values()
+    check_known(task, arguments, [one.name for one in own if one.kind is not one.VAR_KEYWORD])
+    return environment(task, **arguments)
 
 
 def _ranges(given: Any, vehicle: Vehicle) -> Randomisation:
@@ -124,17 +124,3 @@ def _ranges(given: Any, vehicle: Vehicle) -> Randomisation:
         raise InputError("randomise", 'a Randomisation, a table of intervals, or "bands"', repr(given))
     errors.only_known("randomise", given, (entry.name for entry in fields(Randomisation)))
     return Randomisation(**given)
-
-
-def spaces(env: Environment, seen: int) -> tuple[Box, Box]:
-    """Spaces of the observations, `seen` numbers each, and of the actions of one world."""
-    observed = Box(-BOUND, BOUND, (seen,), np.float32)
-    return observed, Box(-1.0, 1.0, (env.actions,), np.float32)
-
-
-def memory_of(history: Any, observation_delay: Any) -> tuple[int, int]:
-    """Return both numbers, checked. Raises InputError unless they are integers from 0 to 1,000."""
-    return (
-        errors.integer("history", history, 0, MOST_KEPT),
-        errors.integer("observation_delay", observation_delay, 0, MOST_KEPT),
-    )

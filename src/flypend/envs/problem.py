@@ -67,8 +67,9 @@ class Environment:
     Raises
     ------
     InputError
-        If the rates do not match, the duration is shorter than an action, a delay is too long, or the plant has
-        something that worlds do not have: noise, sensors of its own, gusts, MuJoCo.
+        If the rates do not match, the duration is shorter than an action, a delay is too long, the task does not begin
+        on the vehicle's mount, or the plant has something that worlds do not have: noise, sensors of its own, gusts,
+        MuJoCo.
     """
 
     task: Task
@@ -85,6 +86,9 @@ class Environment:
         errors.one_of("action", self.action, ("rotors", "wrench", "rates"))
         errors.one_of("attitude", self.attitude, ATTITUDES.values())
         errors.one_of("observe", self.observe, ("all", "state"))
+        if self.vehicle.mount not in self.task.mounts:
+            wanted = f"{' or '.join(map(repr, self.task.mounts))}, for the task {self.task.name}"
+            raise InputError("mount", wanted, repr(self.vehicle.mount))
         self._check_plant()
         errors.number("rate", self.rate, above=0, at_most=self.plant.rate, unit="Hz")
         if abs(self.plant.rate / self.rate - self.steps) > 1e-9:
@@ -126,18 +130,16 @@ def problem(env: Environment) -> WorldsProblem:
     """Return the programs of `env`."""
     parts = Parts(env)
     return WorldsProblem(
-        begin=lower(parts.begin()),
-        command=lower(parts.command()),
-        inner=env.action == "rates",
-        step=lower(parts.step()),
-        observe=lower(parts.observe()),
-        judge=lower(parts.judge()),
-        queued=parts.queued,
-        steps=env.steps,
-        length=1 / env.plant.rate,
+        begin=lower(parts.begin()), command=lower(parts.command()), inner=env.action == "rates",
+        step=lower(parts.step()), observe=lower(parts.observe()), judge=lower(parts.judge()),
+        queued=parts.queued, steps=env.steps, length=1 / env.plant.rate,
         touch=touch_of(env.vehicle, "up", by_rotors=True, floor=env.plant.floor),
         estimating=None if parts.estimates is None else parts.estimates.programs(parts.asked()),
-    )
+    )  # fmt: skip
+
+
+def _symbols(**sizes: int) -> list[Any]:
+    return [ca.SX.sym(name, size) for name, size in sizes.items()]
 
 
 class Parts:
@@ -164,29 +166,20 @@ class Parts:
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        state, goal = env.task.begin(draws, env.vehicle)
-        hover = self._hover(n)
+        (low, high), (state, goal) = env.vehicle.rotor_limits, env.task.begin(draws, env.vehicle)
+        hover = ca.DM(np.full(n, np.clip(env.vehicle.weight / n, low, high)))
+        asked = ca.vertcat(2 * ca.sum1(hover) / (n * high) - 1, ca.DM.zeros(3))  # the action that commands it
+        if env.action == "rotors":
+            asked = 2 * (hover - low) / (high - low) - 1
         numbers = Varied.drawn(env.vehicle, env.randomise, draws)
         wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
         delay = (env.plant.delay + draws.between(*env.randomise.delay)) * env.plant.rate
         memory = ca.vertcat(
-            state.packed(), hover, self._asked(hover), *[hover] * self.queued, wind, ca.SX(3, 1),
+            state.packed(), hover, asked, *[hover] * self.queued, wind, ca.SX(3, 1),
             self._timing(draws), numbers, ca.floor(delay + 0.5), goal,
         )  # fmt: skip
         self.goals = goal.numel()
         return ca.Function("begin", [draws.symbols], [ca.densify(memory)])
-
-    def _hover(self, n: int) -> Any:
-        low, high = self.env.vehicle.rotor_limits
-        return ca.DM(np.full(n, np.clip(self.env.vehicle.weight / n, low, high)))
-
-    def _asked(self, hover: Any) -> Any:
-        """The action that commands hover."""
-        env = self.env
-        low, high = env.vehicle.rotor_limits
-        if env.action == "rotors":
-            return 2 * (hover - low) / (high - low) - 1
-        return ca.vertcat(2 * ca.sum1(hover) / (env.rotors * high) - 1, ca.DM.zeros(3))
 
     def _timing(self, draws: Draws) -> Any:
         """Timing of the rotors, with a lag drawn in `randomise.lag`."""
@@ -198,9 +191,7 @@ class Parts:
     def command(self) -> ca.Function:
         """(state with rotors, action, numbers) → rotor forces."""
         env, vehicle = self.env, self.env.vehicle
-        s, a, p = (
-            ca.SX.sym(name, size) for name, size in (("s", SIZE + env.rotors), ("a", env.actions), ("p", self.numbers))
-        )
+        s, a, p = _symbols(s=SIZE + env.rotors, a=env.actions, p=self.numbers)
         forces = self.asked()(a)
         if env.action == "rates":
             loop = rate_loop(vehicle, env.plant.limits, env.plant.rate_loop_gain, name="loop")
@@ -222,25 +213,22 @@ class Parts:
     def step(self) -> ca.Function:
         """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""
         env, n = self.env, self.env.rotors
-        p = ca.SX.sym("p", self.numbers)
+        s, r, u, w, h, p = _symbols(s=SIZE, r=n, u=n, w=6, h=self.timing, p=self.numbers)
         vehicle: Any = Varied(self.true, p) if self.numbers else self.true
-        s, r, u, w, h = (
-            ca.SX.sym(name, size) for name, size in zip("sruwh", (SIZE, n, n, 6, self.timing), strict=True)
-        )
         plant, commanded = moving(env.plant), p[3:] * u if self.numbers else u
         settled = settle_forces(commanded, vehicle.rotor_limits[1], plant.strength, plant.sag)
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, settled, wind, h, vehicle, plant))
 
-    def _moment(self, change: Any, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
-        """Symbols of time and memory, what they say, and the parts of the memory, with the `change` of the action.
+    def _moment(self, action: Any = None, *, known: bool = False) -> tuple[Any, Any, Moment, list[Any]]:
+        """Symbols of time and memory, what they say after an `action`, if there is one, and the parts of the memory.
 
         What is `known` of state and rotors is their estimate, if there is one.
         """
-        env, t = self.env, ca.SX.sym("t")
+        env = self.env
         lengths = [*self.lengths, self.goals]
         estimate = self.estimates.record.length if self.estimates is not None and known else 0
-        memory = ca.SX.sym("memory", sum(lengths) + estimate)
+        t, memory = _symbols(t=1, memory=sum(lengths) + estimate)
         parts = ca.vertsplit(memory, [0, *np.cumsum([*lengths, estimate]).tolist()])
         estimated = parts.pop()
         if estimate:
@@ -248,9 +236,10 @@ class Parts:
         state, numbers = State.symbolic(parts[0]), parts[-1]
         x, x_dot = env.task.goal(t, numbers)
         error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
+        change = ca.SX.zeros(env.actions) if action is None else action - parts[2]
         reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
         now = Moment(
-            time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change(parts[2]),
+            time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change,
             end=state.x + reach * state.y, end_dot=state.x_dot + reach * state.y_dot, goal=numbers,
             vehicle=env.vehicle,
         )  # fmt: skip
@@ -259,7 +248,7 @@ class Parts:
     def observe(self) -> ca.Function:
         """(time, memory) → observation; see `flypend.envs`."""
         env = self.env
-        t, memory, now, parts = self._moment(lambda before: ca.SX.zeros(env.actions), known=True)
+        t, memory, now, parts = self._moment(known=True)
         low, high = env.vehicle.rotor_limits
         here = env.task.goal(t, parts[-1])[0]
         coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
@@ -274,6 +263,6 @@ class Parts:
     def judge(self) -> ca.Function:
         """(time, memory, action) → (reward, ended)."""
         action = ca.SX.sym("a", self.env.actions)
-        t, memory, now, _ = self._moment(lambda before: action - before)
+        t, memory, now, _ = self._moment(action)
         reward, ended = self.env.task.reward(now), self.env.task.ended(now)
         return ca.Function("judge", [t, memory, action], [ca.densify(reward), ca.densify(ended)])

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from flypend.errors import InputError
 from flypend.geometry import E3, Numbers
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
@@ -32,12 +31,6 @@ VIEW = {
 COLORS = PAGE["light"]
 
 MODES = ("rgb_array",)
-
-
-def check_render_mode(mode: Any) -> None:
-    """Refuse what is neither None nor "rgb_array"."""
-    if mode is not None and mode not in MODES:
-        raise InputError("render_mode", "None or 'rgb_array'; make also knows 'rgb_array_list' and 'human'", repr(mode))
 
 
 def picture(vehicle: Vehicle, state: Numbers, goal: Numbers) -> NDArray[np.uint8]:

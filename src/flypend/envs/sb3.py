@@ -23,12 +23,9 @@ __all__ = ["VecWorlds", "make_vec_env"]
 
 
 def make_vec_env(
-    env_id: str,
-    n_envs: int = 1,
-    seed: int | None = None,
-    env_kwargs: Mapping[str, Any] | None = None,
+    env_id: str, n_envs: int = 1, seed: int | None = None, env_kwargs: Mapping[str, Any] | None = None,
     monitor_dir: str | Path | None = None,
-) -> Any:
+) -> Any:  # fmt: skip
     """Make worlds as `stable_baselines3.common.env_util.make_vec_env` does, but all in one call of compiled code.
 
     Parameters

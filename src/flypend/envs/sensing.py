@@ -74,10 +74,8 @@ class Estimates:
 
     def first(self) -> ca.Function:
         """(state and rotor forces (24 + n,), draws of the start) → memory before the first readings."""
-        begin, draws = (
-            ca.SX.sym("s", SIZE + len(self._vehicle.rotor_spins)),
-            ca.SX.sym("d", start_draws(self._plant.sensors)),
-        )
+        begin = ca.SX.sym("s", SIZE + len(self._vehicle.rotor_spins))
+        draws = ca.SX.sym("d", start_draws(self._plant.sensors))
         state, rotors = begin[:SIZE], begin[SIZE:]
         estimate = first_estimate(self._plant.sensors)(state, draws)
         filtered = self._filter.begin()(rotors, estimate, [])

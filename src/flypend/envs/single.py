@@ -6,11 +6,7 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-from gymnasium.error import ResetNeeded
 
-from flypend.envs.kernel import Worlds, goal_at
-from flypend.envs.make import environment, memory_of, spaces
-from flypend.envs.rendering import MODES, check_render_mode, picture
 from flypend.envs.state import Stateful
 from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
@@ -45,23 +41,12 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         If it is stepped before it is reset.
     """
 
-    metadata = {"render_modes": list(MODES), "render_fps": 100}  # noqa: RUF012
-
     def __init__(
-        self,
-        task: Any = "balance",
-        *,
-        history: int = 0,
-        observation_delay: int = 0,
-        render_mode: str | None = None,
+        self, task: Any = "balance", *, history: int = 0, observation_delay: int = 0, render_mode: str | None = None,
         **arguments: Any,
-    ) -> None:
-        check_render_mode(render_mode)
-        memory = memory_of(history, observation_delay)
-        super().__init__(Worlds(environment(task, **arguments), 1, None, *memory))
-        self.render_mode = render_mode
-        self.metadata = type(self).metadata | {"render_fps": self.worlds.env.rate}
-        self.observation_space, self.action_space = spaces(self.worlds.env, self.worlds.seen.shape[1])
+    ) -> None:  # fmt: skip
+        super().__init__(task, arguments, 1, history, observation_delay, render_mode)
+        self.observation_space, self.action_space = self._spaces()
         self._flown: list[Any] = []
         self._goal = self.worlds.goals[0]
 
@@ -100,13 +85,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         self._check_begun()
         if self.render_mode is None:
             return None
-        env = self.worlds.env
-        goal = goal_at(env, (len(self._flown) - 1) / env.rate, self._goal)
-        return picture(env.vehicle, self._flown[-1], goal)
-
-    def _check_begun(self) -> None:
-        if not self.worlds.begun:
-            raise ResetNeeded("reset the world first")
+        return self._picture((len(self._flown) - 1) / self.worlds.env.rate, self._flown[-1], self._goal)
 
     def _save_flown(self) -> bytes:
         return np.concatenate([self._goal, *self._flown]).tobytes()

@@ -1,18 +1,32 @@
-"""What an environment is at a moment, as a record: kept, compared, sent elsewhere, and gone on from."""
+"""What one world and many have in common as environments of gymnasium: arguments, spaces, pictures and their state.
+
+The state at a moment is a record: kept, compared, sent elsewhere, and gone on from.
+"""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from typing import Any, Self
 from zlib import crc32
 
+import casadi as ca
 import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.spaces import Box
 from gymnasium.utils import seeding
+from numpy.typing import NDArray
 
+from flypend import errors
+from flypend.compile.llvm.worlds import BOUND
 from flypend.envs.kernel import Worlds
+from flypend.envs.make import made_by
+from flypend.envs.rendering import MODES, picture
 from flypend.errors import InputError
+
+MOST_KEPT = 1000  # observations: ten seconds at 100 Hz, and 100 kB a world
 
 
 @dataclass(frozen=True)
@@ -51,16 +65,41 @@ class Stateful:
     Copies by `copy`, `pickle` and `cloudpickle`, and those in a forked process, share nothing with it.
     """
 
-    worlds: Worlds
+    metadata: dict[str, Any] = {"render_modes": list(MODES), "render_fps": 100}  # noqa: RUF012
     np_random: Any
     np_random_seed: Any
     _np_random: Any
     _np_random_seed: Any
 
-    def __init__(self, worlds: Worlds) -> None:
-        self.worlds = worlds
+    def __init__(
+        self, task: Any, arguments: Mapping[str, Any], count: int, history: Any, observation_delay: Any,
+        render_mode: Any, workers: int | None = None,
+    ) -> None:  # fmt: skip
+        if render_mode is not None and render_mode not in MODES:
+            wanted = "None or 'rgb_array'; make also knows 'rgb_array_list' and 'human'"
+            raise InputError("render_mode", wanted, repr(render_mode))
+        earlier = errors.integer("history", history, 0, MOST_KEPT)
+        late = errors.integer("observation_delay", observation_delay, 0, MOST_KEPT)
+        self.worlds = Worlds(made_by(type(self), task, arguments), count, workers, earlier, late)
+        self.render_mode = render_mode
+        self.metadata = type(self).metadata | {"render_fps": self.worlds.env.rate}
         # Else it is seeded when first used, by each copy differently.
         self._np_random, self._np_random_seed = seeding.np_random()
+
+    def _spaces(self) -> tuple[Box, Box]:
+        """Return the spaces of the observations and of the actions of one world."""
+        observed = Box(-BOUND, BOUND, self.worlds.seen.shape[1:], np.float32)
+        return observed, Box(-1.0, 1.0, (self.worlds.env.actions,), np.float32)
+
+    def _check_begun(self) -> None:
+        if not self.worlds.begun:
+            raise ResetNeeded("reset the environment first")
+
+    def _picture(self, time: float, state: NDArray[np.float64], goal: NDArray[np.float64]) -> NDArray[np.uint8]:
+        """Return a picture of a world in a `state` (24 + n,) at a `time`, s, whose `goal` has these numbers (k,)."""
+        env = self.worlds.env
+        place = env.task.goal(ca.SX(time), ca.SX(goal))[0]
+        return picture(env.vehicle, state, np.array(ca.evalf(ca.SX(place))).ravel())
 
     def __copy__(self) -> Self:
         return deepcopy(self)

@@ -85,6 +85,8 @@ class Task:
         (`Moment`) → what else is observed (j, 1).
     defaults : dict
         Arguments of `flypend.envs.environment` that hold for this task unless others are given.
+    mounts : tuple of str
+        Mounts on which its worlds can begin.
     """
 
     name: str
@@ -96,6 +98,7 @@ class Task:
     ahead: tuple[float, ...] = ()
     shown: Callable[[Moment], Any] = nothing
     defaults: Mapping[str, Any] = field(default_factory=dict)
+    mounts: tuple[str, ...] = ("gimbal", "hub", "cup")
 
 
 def near(value: Any, scale: float) -> Any:
@@ -138,13 +141,17 @@ def fallen_or_beyond(now: Moment, radius: float) -> Any:
     return ca.logic_or(now.state.y[2] < 0.5, beyond(now, radius))
 
 
-def _begin_almost_upright(draws: Draws, vehicle: Vehicle, lean: float = 0.2) -> Begin:
-    y = draws.cap(lean)
+def _begin_near(draws: Draws, y: Any, x: float, x_dot: float, tilt: float, omega: float, y_dot: float) -> Begin:
+    """Begin with the rod at `y`, and each other part of the state no larger than this, uniformly drawn."""
     state = State(
-        x=draws.ball(0.5), x_dot=draws.ball(0.5), R=draws.level(0.2), omega=draws.ball(0.5), y=y,
-        y_dot=draws.tangent(y, 0.5),
+        x=draws.ball(x), x_dot=draws.ball(x_dot), R=draws.level(tilt), omega=draws.ball(omega), y=y,
+        y_dot=draws.tangent(y, y_dot),
     )  # fmt: skip
     return Begin(state, ca.SX(0, 1))
+
+
+def _begin_almost_upright(draws: Draws, vehicle: Vehicle, lean: float = 0.2) -> Begin:
+    return _begin_near(draws, draws.cap(lean), x=0.5, x_dot=0.5, tilt=0.2, omega=0.5, y_dot=0.5)
 
 
 def balance() -> Task:
@@ -153,12 +160,7 @@ def balance() -> Task:
 
 
 def _begin_hanging(draws: Draws, vehicle: Vehicle) -> Begin:
-    hanging = -draws.cap(0.2)
-    state = State(
-        x=draws.ball(0.2), x_dot=draws.ball(0.2), R=draws.level(0.2), omega=draws.ball(0.5), y=hanging,
-        y_dot=draws.tangent(hanging, 0.5),
-    )  # fmt: skip
-    return Begin(state, ca.SX(0, 1))
+    return _begin_near(draws, -draws.cap(0.2), x=0.2, x_dot=0.2, tilt=0.2, omega=0.5, y_dot=0.5)
 
 
 def _begin_at_any_angle(draws: Draws, vehicle: Vehicle) -> Begin:
@@ -196,15 +198,18 @@ def upright_and_still(now: Moment) -> Any:
 def swing_up(*, shaped: bool = False) -> Task:
     """Swing the rod up from hanging almost at rest, and balance it. The world ends if the vehicle is 5 m off.
 
+    A rod does not hang in a cup.
+
     Parameters
     ----------
     shaped : bool
         Whether worlds begin with the rod at any angle, end if it is not up in time, and reward a rod at rest most.
     """
-    if shaped:
-        late = partial(late_or_beyond, radius=5.0)
-        return Task("SwingUp", _begin_at_any_angle, hover_reference, upright_and_still, late, 10.0)
-    return Task("SwingUp", _begin_hanging, hover_reference, upright, partial(beyond, radius=5.0), 10.0)
+    begin, reward, ended = (
+        (_begin_at_any_angle, upright_and_still, late_or_beyond) if shaped else (_begin_hanging, upright, beyond)
+    )
+    ended = partial(ended, radius=5.0)
+    return Task("SwingUp", begin, hover_reference, reward, ended, 10.0, mounts=("gimbal", "hub"))
 
 
 @dataclass(frozen=True)
@@ -260,14 +265,10 @@ def _square(phase: Any, size: float, rate: float) -> tuple[Any, Any]:
 
 
 def _begin_in_cup(draws: Draws, vehicle: Vehicle) -> Begin:
-    y = draws.cap(0.5)
-    state = State(
-        x=ca.SX(3, 1), x_dot=draws.ball(0.5), R=draws.level(0.1), omega=draws.ball(0.2), y=y,
-        y_dot=draws.tangent(y, 1.0),
-    )  # fmt: skip
-    return Begin(state, ca.SX(0, 1))
+    return _begin_near(draws, draws.cap(0.5), x=0.0, x_dot=0.5, tilt=0.1, omega=0.2, y_dot=1.0)
 
 
 def catch_in_cup() -> Task:
     """Catch a rod that is toppling in a cup, without losing it; for a vehicle with a cup."""
-    return Task("CatchInCup", _begin_in_cup, hover_reference, upright, partial(beyond, radius=5.0), 6.0)
+    far, cup = partial(beyond, radius=5.0), "cup"
+    return Task("CatchInCup", _begin_in_cup, hover_reference, upright, far, 6.0, defaults={"mount": cup}, mounts=(cup,))

@@ -11,9 +11,6 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.envs.kernel import Worlds, goal_at
-from flypend.envs.make import environment, memory_of, spaces
-from flypend.envs.rendering import MODES, check_render_mode, picture
 from flypend.envs.state import Stateful
 from flypend.errors import InputError
 from flypend.plants.plant import check_seed
@@ -53,35 +50,22 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         If worlds are stepped that must be reset first.
     """
 
-    metadata = {  # noqa: RUF012
-        "autoreset_mode": AutoresetMode.SAME_STEP, "render_modes": list(MODES), "render_fps": 100,
-    }  # fmt: skip
+    metadata = Stateful.metadata | {"autoreset_mode": AutoresetMode.SAME_STEP}
 
     def __init__(
-        self,
-        task: Any = "balance",
-        num_envs: int = 1,
-        *,
-        copy: bool = True,
-        history: int = 0,
-        observation_delay: int = 0,
-        workers: int | None = None,
-        render_mode: str | None = None,
-        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
-        **arguments: Any,
-    ) -> None:
-        check_render_mode(render_mode)
-        self.render_mode = render_mode
+        self, task: Any = "balance", num_envs: int = 1, *, copy: bool = True, history: int = 0,
+        observation_delay: int = 0, workers: int | None = None, render_mode: str | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP, **arguments: Any,
+    ) -> None:  # fmt: skip
         modes = {mode.value: mode for mode in AutoresetMode}
         named = getattr(autoreset_mode, "value", autoreset_mode)
         self._autoreset = modes[errors.one_of("autoreset_mode", named, modes)]
         self.num_envs = errors.integer("num_envs", num_envs, 1)
-        self.history, late = memory_of(history, observation_delay)
         threads = None if workers is None else errors.integer("workers", workers, 1)
-        super().__init__(Worlds(environment(task, **arguments), self.num_envs, threads, self.history, late))
-        self.metadata = type(self).metadata | {"autoreset_mode": self._autoreset, "render_fps": self.worlds.env.rate}
-        self.copy = copy
-        self.single_observation_space, self.single_action_space = spaces(self.worlds.env, self.worlds.seen.shape[1])
+        super().__init__(task, arguments, self.num_envs, history, observation_delay, render_mode, threads)
+        self.metadata |= {"autoreset_mode": self._autoreset}
+        self.copy, self.history = copy, self.worlds.history
+        self.single_observation_space, self.single_action_space = self._spaces()
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
@@ -107,8 +91,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Advance all worlds by `actions` (num_envs, m), each entry in [−1, 1]. Raises InputError for another shape."""
-        if not self.worlds.begun:
-            raise ResetNeeded("reset the worlds first")
+        self._check_begun()
         worlds = self.worlds
         if self._autoreset is AutoresetMode.SAME_STEP:
             worlds.step(actions)
@@ -148,11 +131,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         """
         if self.render_mode is None:
             return None
-        if not self.worlds.begun:
-            raise ResetNeeded("reset the worlds first")
-        worlds, env = self.worlds, self.worlds.env
-        whole = zip(worlds.states, worlds.times, worlds.goals, strict=True)
-        return tuple(picture(env.vehicle, state, goal_at(env, time, numbers)) for state, time, numbers in whole)
+        self._check_begun()
+        return tuple(map(self._picture, self.worlds.times, self.worlds.states, self.worlds.goals))
 
     def _kind(self) -> str:
         return f"VectorWorlds, {self._autoreset.value}"
@@ -164,8 +144,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         mask = options["reset_mask"]
         if not (isinstance(mask, np.ndarray) and mask.dtype == np.bool_ and mask.shape == (self.num_envs,)):
             raise InputError("reset_mask", f"an array ({self.num_envs},) of bool", repr(mask))
-        if not (self.worlds.begun or mask.all()):
-            raise ResetNeeded("reset all worlds first")
+        if not mask.all():
+            self._check_begun()
         return mask
 
     def _own(self, seeds: Any, fresh: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -68,10 +68,4 @@ def identify(
     if not pwm and flown.command.max() > 2 * vehicle.rotor_limits[1]:
         limit = f"forces up to {vehicle.rotor_limits[1]:g} N, the vehicle's limit (or command='pwm')"
         raise errors.InputError(str(log), limit, f"{flown.command.max():g}")
-    from flypend.identification.fit import PASSES
-
-    def tell(done: int, _: float) -> None:
-        if progress is not None:
-            progress("pass", done, PASSES)
-
-    return conclude(fit(flown, vehicle, place, pwm, tell), vehicle, mass_error)
+    return conclude(fit(flown, vehicle, place, pwm, progress), vehicle, mass_error)

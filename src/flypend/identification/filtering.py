@@ -15,8 +15,8 @@ import numpy as np
 
 from flypend import signals
 from flypend.geometry import Numbers, unit
-from flypend.identification.grid import Grid
-from flypend.identification.model import ERROR, LOCAL, MOVING, READING, sizes
+from flypend.identification.log import Grid
+from flypend.identification.model import ERROR, LOCAL, MOVING, READING, places, sizes
 from flypend.identification.rotors import Forces
 
 SEGMENT = 2.0  # s, over which scores are summed: some correlation times of gusts and swings
@@ -28,10 +28,9 @@ GUST_TIME = 1.0  # s
 HASTE = 1.5
 ABSENT = 0.6  # a ratio below which the noise is probably none; it leaves twice as fast
 # Parts of a local error of the state that share one density of noise.
-NOISY = {
-    "x": slice(0, 3), "x_dot": slice(3, 6), "phi": slice(6, 9), "omega": slice(9, 11), "omega_3": slice(11, 12),
-    "y": slice(12, 15), "y_dot": slice(15, 18), "on_vehicle": slice(18, 21), "on_bob": slice(21, 24),
-}  # fmt: skip
+NOISY = places({
+    "x": 3, "x_dot": 3, "phi": 3, "omega": 2, "omega_3": 1, "y": 3, "y_dot": 3, "on_vehicle": 3, "on_bob": 3,
+})  # fmt: skip
 # Of what drives, these are estimated: white accelerations explain what gusts do, and would take their place.
 SOUGHT = ("omega", "omega_3", "on_vehicle", "on_bob")
 DRIVEN = ("x_dot", "omega", "omega_3", "y_dot", "on_vehicle", "on_bob")
@@ -62,52 +61,27 @@ class Programs(NamedTuple):
 
 @dataclass(frozen=True)
 class Pass:
-    """What a pass found.
+    """What a pass found."""
 
-    Parameters
-    ----------
-    information : (p, p)
-        Sum of JᵀS⁻¹J over readings, J the derivative of a prediction error and S its covariance.
-    scores : (segments, p)
-        Minus the gradient of the cost, by segments of `SEGMENT` seconds.
-    noises : Noises
-        What the prediction errors say of the noises.
-    errors, spreads : (k, 15)
-        Prediction errors and their standard deviations; NaN where nothing was read.
-    refused : int
-        Readings beyond `GATE`.
-    """
-
-    information: Numbers
-    scores: Numbers
-    noises: Noises
-    errors: Numbers
-    spreads: Numbers
-    refused: int
+    information: (
+        Numbers  # (p, p): sum of JᵀS⁻¹J over readings, J the derivative of a prediction error, S its covariance
+    )
+    scores: Numbers  # (segments, p): minus the gradient of the cost, by segments of `SEGMENT` seconds
+    noises: Noises  # what the prediction errors say of the noises
+    errors: Numbers  # (k, 15): prediction errors; NaN where nothing was read
+    spreads: Numbers  # (k, 15): their standard deviations
+    refused: int  # readings beyond `GATE`
 
 
 def run_filter(
     grid: Grid, forces: Forces, by_rotors: Numbers, moving: Numbers, reading: Numbers, noises: Noises,
     programs: Programs, gated: bool,
 ) -> Pass:  # fmt: skip
-    """Filter a log.
+    """Filter the readings of `grid`, weighing them by `noises`; if `gated`, those beyond `GATE` are left out.
 
-    Parameters
-    ----------
-    grid : Grid
-        The readings.
-    forces : Forces
-        Of the rotors at the grid.
-    by_rotors : (2, k, n, q)
-        Derivatives of the mean over the step that follows, and of the force now, by the numbers of the rotors.
-    moving, reading : array
-        Numbers of `model.MOVING` and `model.READING`; `latency` is what remains beyond that of the grid.
-    noises : Noises
-        With which the filter weighs.
-    programs : Programs
-        Of the vehicle.
-    gated : bool
-        Whether readings beyond `GATE` are left out.
+    `forces` are those of the rotors at the grid; `by_rotors` (2, k, n, q) are derivatives of the mean over the step
+    that follows, and of the force now, by the numbers of the rotors. `moving` and `reading` are numbers of
+    `model.MOVING` and `model.READING`, whose `latency` is what remains beyond that of the grid.
     """
     h, count = float(grid.t[1] - grid.t[0]), len(grid.t)
     m, q, n = sizes(MOVING), by_rotors.shape[-1], forces.now.shape[1]

@@ -1,4 +1,7 @@
-"""Maximum likelihood by scoring: passes of the filter, each followed by a step of the numbers and of the noises."""
+"""Maximum likelihood by scoring: what is searched, and passes of the filter, each followed by a step.
+
+Every number has a guess, how far off that may be, and a form in which it is searched. A step moves numbers and noises.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +15,12 @@ from threadpoolctl import threadpool_limits
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Vector, vee
 from flypend.identification.filtering import GUST_TIME, Noises, Pass, Programs, run_filter
-from flypend.identification.grid import grid_step, to_grid
-from flypend.identification.log import Log
-from flypend.identification.model import CHANNELS, MOVING, READING, moves, reads, sizes
-from flypend.identification.numbers import Search, places, search_from
-from flypend.identification.rotors import Forces, rotor_forces, rotor_slopes, rotor_table
+from flypend.identification.log import Log, grid_step, to_grid
+from flypend.identification.model import CHANNELS, MOVING, READING, moves, places, reads, sizes, split
+from flypend.identification.rotors import Forces, patterns, rotor_forces, rotor_slopes, rotor_table
 from flypend.model import Vehicle
+
+Progress = Callable[[str, int, int], None] | None
 
 PASSES = 12
 ROUGH = 2  # passes before noises are estimated, of errors that until then are the guess's
@@ -30,42 +33,110 @@ DRIVE = (5e-3, 0.3, 0.1, 0.01)
 GUST = 0.02
 ON_BOB = 4.0  # gusts on the bob over those of its share in the mass, where the search begins
 QUIETEST = 1e-4  # of a variance, over that with which the search begins
+# Standard deviation of a guess: of its logarithm, for what is positive and of unknown size ...
+RATIOS = {
+    "rod_length": 0.15, "bob_mass": 0.1, "inertia": 0.4, "drag_ratio": 0.4, "lag": 0.7, "spin_up": 0.3,
+}  # fmt: skip
+# ... or of the number itself: m; logarithms of forces; share of voltage; s; rad/s; m/s²; rad. Props of one kind differ
+# by some per cent, batteries lose up to a tenth, radios take some 10 ms, hobby IMUs are off by so much.
+PLAIN = {
+    "pivot_offset": 5e-3, "scale": 0.15, "shares": 0.05, "sag": 0.05, "delay": 0.02, "latency": 0.01, "gyro_bias": 0.05,
+    "force_bias": 0.3, "misalignment": 0.02, "curve": 0.3,
+}  # fmt: skip
+FIELDS = {"scale": "thrust_scale", "lag": "rotor_lag", "shares": "strength"}  # of a vehicle's bands, by name here
+NORMAL_975 = 1.96  # standard deviations from the middle of a band of 95 % to its end
+LAG, DELAY, SAG, PWM_CURVE = 0.04, 0.01, 0.03, 0.7  # where a search begins if the guess says nothing
+LEAST, MOST = {"delay": 0.0, "sag": 0.0, "curve": 0.0}, {"delay": 0.2, "sag": 0.25, "curve": 1.0}
+DRAG_TIME, WIND = 5.0, 0.03  # s in which drag stops a machine; steady wind over weight
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """What points θ (p,) of a search stand for."""
+
+    vehicle: Vehicle  # the guess
+    table: dict[str, int]  # names and lengths of what is searched: what moves, the rotors, what is read
+    guess: Numbers  # (p,): where the search begins
+    spread: Numbers  # (p,): standard deviation of the guess; 0 for what is not searched
+    logarithmic: Numbers  # (p,) of bool: what is searched as the logarithm of its ratio to the guess
+
+    def values(self, theta: Numbers) -> dict[str, Any]:
+        """Return the numbers at θ (p,) by name."""
+        return split(self.table, self.plain(theta))
+
+    def plain(self, theta: Numbers) -> Any:
+        """Return the numbers at θ (p,) in one array."""
+        return np.where(self.logarithmic, self.guess * np.exp(np.where(self.logarithmic, theta, 0)), self.guess + theta)
+
+    def slope(self, theta: Numbers) -> Any:
+        """Return d(number)/dθ, (p,)."""
+        return np.where(self.logarithmic, self.plain(theta), 1.0)
+
+    def within(self, theta: Numbers) -> Any:
+        """Return θ (p,) with what has limits clipped to them."""
+        low, high = np.full(len(theta), -np.inf), np.full(len(theta), np.inf)
+        for name, place in places(self.table).items():
+            low[place] = LEAST.get(name, -np.inf) - self.guess[place]
+            high[place] = MOST.get(name, np.inf) - self.guess[place]
+        held = np.clip(theta, low, high)
+        return np.where(self.logarithmic, np.clip(theta, -1.5, 1.5), held)  # a factor of 4.5 either way
+
+
+def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
+    """Return the search that begins at `vehicle`; with `pwm` the thrust curve is searched too.
+
+    Bands of the vehicle are what is known before; numbers without one have the usual spreads.
+    """
+    n = len(vehicle.rotor_spins)
+    hover = vehicle.weight / n
+    drag = vehicle.weight / vehicle.gravity / DRAG_TIME / n / np.sqrt(hover)
+    known = 0.0 if vehicle.air is None else vehicle.air.rotor_drag
+    given: dict[str, Any] = {
+        "rod_length": vehicle.rod_length, "bob_mass": vehicle.bob_mass, "inertia": np.diag(vehicle.inertia),
+        "drag_ratio": vehicle.drag_ratio, "pivot_offset": vehicle.pivot_offset, "rotor_drag": known,
+        "lag": vehicle.rotor_lag or LAG, "spin_up": 1.0, "sag": SAG, "delay": DELAY,
+        "curve": PWM_CURVE if pwm else 0.0, "scale": np.log(vehicle.thrust_scale),
+    }  # fmt: skip
+    spreads: dict[str, Any] = {**RATIOS, **PLAIN, "rotor_drag": drag, "wind": WIND * vehicle.weight}
+    for name in spreads:
+        if (field := FIELDS.get(name, name)) in (vehicle.bands or {}):
+            low, high = (np.array(end) for end in vehicle.bands[field])
+            logarithmic = name in RATIOS or name in ("scale", "shares")
+            spreads[name] = (np.log(high / low) if logarithmic else high - low) / (2 * NORMAL_975)
+            if name in ("spin_up", "sag", "delay", "latency"):  # no fields of a vehicle: the band's middle
+                given[name] = (low + high) / 2
+            if name == "shares":
+                given[name], spreads[name] = patterns(n).T @ np.log(low * high) / 2, spreads[name].mean()
+    if not pwm:
+        spreads["curve"] = 0.0
+    if not accelerometer:
+        spreads["force_bias"] = 0.0
+    table = {**MOVING, **rotor_table(n), **READING}
+    parts = [
+        [np.broadcast_to(number, size) for number in (given.get(name, 0.0), spreads[name], name in RATIOS)]
+        for name, size in table.items()
+    ]
+    return Search(vehicle, table, *map(np.concatenate, zip(*parts, strict=True)))
 
 
 @dataclass(frozen=True)
 class Fit:
-    """Where the search ended.
-
-    Parameters
-    ----------
-    search : Search
-        What was searched.
-    theta : (p,)
-        Its end.
-    covariance : (p, p)
-        Of θ, by the scores of segments.
-    last : Pass
-        The last pass of the filter.
-    passes : int
-        How many there were.
-    converged : bool
-        Whether the last step was below `DONE` standard errors.
-    """
+    """Where the search ended."""
 
     search: Search
-    theta: Numbers
-    covariance: Numbers
-    last: Pass
-    noises: Noises
+    theta: Numbers  # (p,): its end
+    covariance: Numbers  # (p, p): of θ, by the scores of segments
+    last: Pass  # of the filter
+    noises: Noises  # with which that weighed
     passes: int
-    converged: bool
+    converged: bool  # whether the last step was below `DONE` standard errors
 
 
-def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[int, float], None] | None = None) -> Fit:
+def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progress = None) -> Fit:
     """Search the numbers of `vehicle`, the guess, that make `log` likeliest.
 
-    `marker` is the tracked point from the pivot, body frame, m; `pwm` says that commands are fractions; `tell` is told
-    the pass and the largest step in standard errors.
+    `marker` is the tracked point from the pivot, body frame, m; `pwm` says that commands are fractions; `progress` is
+    called with ("pass", done, total).
     """
     search = search_from(vehicle, pwm, bool(np.isfinite(log.force).any()))
     programs = Programs(moves(vehicle), reads(vehicle, marker))
@@ -85,8 +156,8 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[i
         step[free] = bread @ (scores.sum(axis=0) - (prior * theta)[free])
         after = search.within(theta + step)
         moved = float(np.max(np.abs(after - theta)[free] / np.sqrt(np.diag(bread))))
-        if tell is not None:
-            tell(k + 1, moved)
+        if progress is not None:
+            progress("pass", k + 1, PASSES)
         converged = moved < DONE and k > UNGATED
         if converged or k + 1 == PASSES:
             break
@@ -96,7 +167,9 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, tell: Callable[[i
             noises = replace(noises, driving=driving)
     sandwich = bread @ (scores.T @ scores + np.diag(prior[free])) @ bread
     covariance = np.zeros((len(theta),) * 2)
-    covariance[np.ix_(free, free)] = _wider(sandwich, bread)
+    # The larger standard deviations of both, correlated as by the scores.
+    widen = np.sqrt(np.maximum(1.0, np.diag(bread) / np.maximum(np.diag(sandwich), 1e-300)))
+    covariance[np.ix_(free, free)] = sandwich * np.outer(widen, widen)
     return Fit(search, theta, covariance, found, noises, k + 1, converged)
 
 
@@ -104,23 +177,19 @@ def one_pass(
     log: Log, search: Search, theta: Numbers, noises: Noises, programs: Programs, pwm: bool, gated: bool
 ) -> Pass:
     """Run the filter with the numbers at θ; its scores are by the numbers themselves."""
-    plain, where = search.plain(theta), places(search.table)
-    latency = float(plain[where["latency"]][0])
-    grid = to_grid(log, latency)
-    reading = plain[-sizes(READING) :].copy()
-    reading[0] = 0.0  # poses of the grid are that much older
-    n = log.command.shape[1]
-    names = rotor_table(n)
-    rotors = plain[sizes(MOVING) : sizes(MOVING) + sizes(names)]
+    names = rotor_table(log.command.shape[1])
+    parts = {"moving": sizes(MOVING), "rotors": sizes(names), "reading": sizes(READING)}
+    now, free = split(parts, search.plain(theta)), split(parts, search.spread > 0)
+    grid = to_grid(log, float(split(READING, now["reading"])["latency"][0]))
+    now["reading"][0] = 0.0  # poses of the grid are that much older
 
     def forces(values: Any) -> Forces:
-        by_name = {name: values[place] for name, place in places(names).items()}
-        return rotor_forces(log.t, log.command, grid.t, by_name, search.vehicle.rotor_limits[1], pwm)
+        most = search.vehicle.rotor_limits[1]
+        return rotor_forces(log.t, log.command, grid.t, split(names, values), most, pwm)
 
-    middle = forces(rotors)
-    free = search.spread[sizes(MOVING) : sizes(MOVING) + sizes(names)] > 0
-    slopes = rotor_slopes(middle, forces, rotors, names, free)
-    return run_filter(grid, middle, slopes, plain[: sizes(MOVING)], reading, noises, programs, gated)
+    middle = forces(now["rotors"])
+    slopes = rotor_slopes(middle, forces, now["rotors"], names, free["rotors"])
+    return run_filter(grid, middle, slopes, now["moving"], now["reading"], noises, programs, gated)
 
 
 def first_noises(vehicle: Vehicle, log: Log) -> Noises:
@@ -151,9 +220,3 @@ def _reading_variances(log: Log) -> Any:
         variance = usual / (20 * median)  # 1² + 3² + 3² + 1²
         found.append(np.clip(variance if np.isfinite(variance) else READ[name] ** 2, 1e-4 * READ[name] ** 2, None))
     return np.array(found)
-
-
-def _wider(one: Any, other: Any) -> Any:
-    """Return a covariance with the larger standard deviations of two, correlated as the first."""
-    widen = np.sqrt(np.maximum(1.0, np.diag(other) / np.maximum(np.diag(one), 1e-300)))
-    return one * np.outer(widen, widen)

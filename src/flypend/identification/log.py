@@ -1,4 +1,7 @@
-"""A flight log: a table of what was commanded and measured, from CSV, ULog, µSD or a bag, checked cell by cell."""
+"""A flight log: a table of what was commanded and measured, from CSV, ULog, µSD or a bag, checked cell by cell.
+
+The filter takes it on an even grid: readings of each step averaged, with the age of the pose.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +12,15 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
 from flypend.files.reading import read_bytes
-from flypend.geometry import Numbers, rotation_from_quat_xyzw
-from flypend.identification.rosbag import is_mcap, parse_bag
-from flypend.identification.ulog import is_ulog, parse_ulog
-from flypend.identification.usd import is_usd, parse_usd
+from flypend.geometry import Numbers, project_rotation, rotation_from_quat_xyzw
+from flypend.identification.formats import MCAP, ULOG, USD, parse_bag, parse_ulog, parse_usd
 
 POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
 GYRO = ("gx", "gy", "gz")
@@ -41,6 +42,7 @@ SHORTEST = 10.0  # s; a rod of half a metre swings seven times
 SLOWEST = 50.0  # Hz; the rotation answers a kick within some 20 ms
 LONGEST_GAP = 0.5  # s without any row, over which no prediction is worth its name
 MOST_BYTES, COPIES = 2**28, 30  # ten minutes at 1 kHz; a cell as a Python number takes that much of its text
+STEP = 5e-3  # s, of the grid; the rotation's fastest change, within the rotors' lag of 20 ms or more, takes four
 NEAR_UNIT = 0.1  # a quaternion or direction of another length is of another kind
 
 
@@ -90,27 +92,26 @@ def read_log(path: str | Path) -> Log:
     """Read the CSV, ULog, µSD or MCAP file at `path`. Raises InputError that names row and column, or topic.
 
     A ULog is PX4's: its longest flight is read. A µSD log is the Crazyflie's: of its variables those in `CRAZYFLIE`
-    are read. Both have commands in fractions of the largest force. MCAP is a bag of ROS 2: see `rosbag`.
+    are read. Both have commands in fractions of the largest force. MCAP is a bag of ROS 2: see `formats`.
     """
+    field = str(path)
     try:
         content = read_bytes(path, MOST_BYTES, copies=COPIES)
-        if is_ulog(content):
-            return _check(*parse_ulog(content, str(path)), str(path), fractions=True)
-        if is_mcap(content):
-            columns, rotors, fractions = parse_bag(content, str(path))
-            return _check(columns, rotors, str(path), fractions=fractions)
-        if is_usd(content):
-            return _from_crazyflie(parse_usd(content, str(path)), str(path))
+        for magic, parse in ((ULOG, parse_ulog), (MCAP, parse_bag)):
+            if content.startswith(magic):
+                columns, rotors, fractions = parse(content, field)
+                return _check(columns, rotors, field, fractions=fractions)
+        if content.startswith(USD):
+            return _from_crazyflie(parse_usd(content, field), field)
         text = content.decode("utf-8")
     except InputError:
         raise
     except OSError as error:
-        raise InputError(str(path), "a readable file", error.strerror or error) from None
+        raise InputError(field, "a readable file", error.strerror or error) from None
     except ValueError as error:  # not UTF-8, or a name that no file can have
-        raise InputError(
-            str(path), "a ULog, a µSD log of the Crazyflie, a bag in MCAP, or a CSV file in UTF-8", error
-        ) from None
-    return parse_log(text, str(path))
+        wanted = "a ULog, a µSD log of the Crazyflie, a bag in MCAP, or a CSV file in UTF-8"
+        raise InputError(field, wanted, error) from None
+    return parse_log(text, field)
 
 
 def parse_log(text: str, field: str = "log") -> Log:
@@ -136,9 +137,8 @@ def parse_log(text: str, field: str = "log") -> Log:
 def _from_crazyflie(variables: dict[str, Any], field: str) -> Log:
     """Return the log in the Crazyflie's `variables` by name. Raises InputError if one is missing or wrong."""
     columns = {name: variables[theirs] * unit for theirs, (name, unit) in CRAZYFLIE.items() if theirs in variables}
-    groups = {
-        theirs.partition(".")[0] for theirs in variables
-    }  # of two names for one thing, that of a group that is there
+    # Of two names for one thing, that of a group that is there.
+    groups = {theirs.partition(".")[0] for theirs in variables}
     called = sorted(CRAZYFLIE, key=lambda theirs: theirs.partition(".")[0] in groups)
     rotors = _check_header(list(columns), field, {CRAZYFLIE[theirs][0]: theirs for theirs in called})
     if sent := [name for name in POSE if f"locSrv.{name}" in variables]:
@@ -174,24 +174,20 @@ def _check_header(names: list[str], field: str, called: Mapping[str, str] = Mapp
 
 
 def _numbers(row: list[str], names: list[str], number: int, field: str) -> list[float]:
-    """Return a row as numbers, NaN for empty cells. Raises InputError if it has too few cells or too many."""
+    """Return a row as numbers, NaN for empty cells. Raises InputError for other cells, too few or too many."""
     if len(row) != len(names):
         raise InputError(f"{field}, row {number}", f"{len(names)} cells, as in the header", f"{len(row)}")
-    return [_number(cell, name, number, field) for name, cell in zip(names, row, strict=True)]
-
-
-def _number(cell: str, name: str, number: int, field: str) -> float:
-    """Return a cell as a number, NaN if it is empty. Raises InputError unless it is a finite number."""
-    text = cell.strip()
-    if not text:
-        return np.nan
-    try:
-        value = float(text)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise InputError(f"{field}, row {number}, column {name}", "a number, or an empty cell", repr(text[:40]))
-    return value
+    found = []
+    for name, cell in zip(names, map(str.strip, row), strict=True):
+        try:
+            value = float(cell or "nan")
+        except ValueError:
+            value = np.inf
+        if cell and not np.isfinite(value):
+            told = repr(cell[:40])
+            raise InputError(f"{field}, row {number}, column {name}", "a number, or an empty cell", told)
+        found.append(value)
+    return found
 
 
 def _check_times(t: Any, field: str) -> None:
@@ -204,9 +200,8 @@ def _check_times(t: Any, field: str) -> None:
     if (rate := (len(t) - 1) / (t[-1] - t[0])) < SLOWEST:
         raise InputError(f"{field}, column t", f"at least {SLOWEST:g} rows a second (s, not ms?)", f"{rate:.3g}")
     if np.any(gap := np.diff(t) > LONGEST_GAP):
-        raise InputError(
-            f"{field}, row {_row(gap) + 1}, column t", f"gaps of at most {LONGEST_GAP:g} s", _row_of(t, gap)
-        )
+        most = f"gaps of at most {LONGEST_GAP:g} s"
+        raise InputError(f"{field}, row {_row(gap) + 1}, column t", most, _row_of(t, gap))
 
 
 def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool) -> Log:
@@ -229,9 +224,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
         groups[name] = groups[name] / length[:, None]
     command = np.stack([_hold_last(columns[f"u{i + 1}"], f"{field}, column u{i + 1}") for i in range(rotors)], axis=-1)
     if np.any(low := (command < 0).any(axis=1)):
-        raise InputError(
-            f"{field}, row {_row(low)}, columns u1…", "commands >= 0", f"{command[np.argmax(low)].min():g}"
-        )
+        least = f"{command[np.argmax(low)].min():g}"
+        raise InputError(f"{field}, row {_row(low)}, columns u1…", "commands >= 0", least)
     w, xyz = groups["q"][:, :1], groups["q"][:, 1:]
     known = np.isfinite(w[:, 0])
     rotation = np.full((len(t), 3, 3), np.nan)
@@ -256,3 +250,50 @@ def _row(wrong: Any) -> int:
 def _row_of(t: Any, wrong: Any) -> str:
     i = int(np.argmax(wrong))
     return f"{t[i + 1]:.6g} after {t[i]:.6g}"
+
+
+# The grid -------------------------------------------------------------------------------------------------------------
+
+
+class Grid(NamedTuple):
+    """Readings at even instants `t` (k,), s, of `values` (k, 21) in the order of `model.CHANNELS`.
+
+    The attitude has nine numbers, by rows. `counts` (k, 5) says how many rows each channel had there, `age` (k,) how
+    long before the instant poses were taken, s, on average.
+    """
+
+    t: Numbers
+    values: Numbers
+    counts: Numbers
+    age: Numbers
+
+
+def grid_step(log: Log) -> float:
+    """Return the step of the grid, s: about `STEP`, of whole rows, so that none is far from its instant."""
+    apart = float(np.median(np.diff(log.t)))
+    return apart * max(1, int(STEP / apart + 0.2))
+
+
+def to_grid(log: Log, latency: float) -> Grid:
+    """Return `log` on the grid, with poses as old as `latency` (s) when they are written."""
+    step, apart = grid_step(log), float(np.median(np.diff(log.t)))
+    t = np.arange(log.t[0] + (step - apart) / 2, log.t[-1] + step / 2, step)  # in the middle of the rows of a step
+    rows = len(log.t)
+    streams = [log.position, log.rotation.reshape(rows, 9), log.gyro, log.force, log.rod]
+    values, counts, age = np.zeros((len(t), 21)), np.zeros((len(t), 5)), np.zeros(len(t))
+    begin = 0
+    for channel, stream in enumerate(streams):
+        pose, width = channel in (0, 1, 4), stream.shape[1]
+        times = log.t - (latency if pose else 0.0)
+        known = np.isfinite(stream).all(axis=1) & (times > t[0] - step / 2) & (times < t[-1] + step / 2)
+        at = np.rint((times[known] - t[0]) / step).astype(int)
+        counts[:, channel] = np.bincount(at, minlength=len(t))
+        share = np.maximum(counts[:, channel], 1)
+        for i in range(width):
+            values[:, begin + i] = np.bincount(at, stream[known, i], len(t)) / share
+        if channel == 0:
+            age = np.bincount(at, t[at] - times[known], len(t)) / share
+        begin += width
+    some = counts[:, 1] > 0
+    values[some, 3:12] = project_rotation(values[some, 3:12].reshape(-1, 3, 3)).reshape(-1, 9)
+    return Grid(t, values, counts, age)

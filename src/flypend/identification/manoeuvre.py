@@ -47,11 +47,6 @@ class Rehearsal(NamedTuple):
     states: Numbers
 
 
-def step_places(duration: float, rng: np.random.Generator) -> Any:
-    """Return the places to hold (k, 3), m, one for each `STEP_TIME` of a flight of `duration` seconds."""
-    return rng.uniform(-STEP, STEP, (int(duration / STEP_TIME) + 1, 3))
-
-
 def doublet(t: float) -> Any:
     """Return the moment (3,) to add at `t`, s, as a share of the largest: roll, pitch and yaw in turn."""
     turn, since = divmod(t, 1.0)
@@ -65,30 +60,19 @@ def rehearse(
     vehicle: Vehicle, true: Vehicle, plant: Plant, *, duration: float = 60.0, latency: float = 0.0,
     bias: float = 0.0, seed: int = 0,
 ) -> Rehearsal:  # fmt: skip
-    """Fly the manoeuvre with the rod hanging, and log it.
+    """Fly the manoeuvre with the rod hanging for `duration` seconds, and log it.
 
-    Parameters
-    ----------
-    vehicle : Vehicle
-        What the pilot's feedback believes in.
-    true : Vehicle
-        What flies.
-    plant : Plant
-        Engine, motors, delay, air and gusts; its `noise` is that of the readings.
-    duration : float
-        s.
-    latency : float
-        By how much poses are older than the row that they stand in, s.
-    bias : float
-        Standard deviation of the gyroscope's bias, rad/s; that of the accelerometer is ten times as many m/s².
-    seed : int
-        Seed of all noise.
+    The pilot's feedback believes in `vehicle`, but `true` flies. The `plant` has engine, motors, delay, air and gusts;
+    its `noise` is that of the readings. Poses are `latency` seconds older than the row that they stand in. The
+    gyroscope's bias has a standard deviation of `bias`, rad/s, that of the accelerometer ten times as many m/s². All
+    noise is drawn by `seed`.
     """
     rng, n, h = np.random.default_rng(seed), len(vehicle.rotor_spins), 1 / RATE
     noise, engine = plant.noise or Noise(), make_engine(true, plant)
     hover = np.full(n, vehicle.weight / n)
     engine.reset(State(y=(0, 0, -1)).packed(), hover)
-    where, biases = step_places(duration, rng), bias * rng.normal(size=6) * np.repeat([1, 10], 3)
+    where = rng.uniform(-STEP, STEP, (int(duration / STEP_TIME) + 1, 3))  # the places to hold
+    biases = bias * rng.normal(size=6) * np.repeat([1, 10], 3)
     segments, felt = within_period(plant.delay, h), _specific_force(true, plant)
     asked = [hover] * (2 + max(age for age, _ in segments))
     wind, gust, rows, states = plant.wind, np.zeros(6), [], []
@@ -107,8 +91,8 @@ def rehearse(
         gyro = s.omega + biases[:3] + noise.omega * rng.normal(size=3)
         force = felt(packed, engine.rotors, gust + steady) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
         speed = seen.x_dot + noise.x_dot * rng.normal(size=3)
-        apart = x - where[int(k * h / STEP_TIME)]
-        command, error = _feedback(k * h, apart, speed, R, gyro, y, turned, vehicle, attitude)
+        read = x - where[int(k * h / STEP_TIME)], speed, R, gyro, y
+        command, error = _feedback(k * h, read, turned, vehicle, attitude)
         turned += h * error
         rows.append([k * h, *x, *quat_xyzw_from_rotation(R)[[3, 0, 1, 2]], *gyro, *force, *y, *command])
         asked = [command, *asked[:-1]]
@@ -138,13 +122,13 @@ def _specific_force(true: Vehicle, plant: Plant) -> Callable[..., Any]:
     return as_numpy(ca.Function("felt", [packed, rotors, gusts], [ca.densify(felt)]))
 
 
-def _feedback(
-    t: float, apart: Any, speed: Any, R: Any, omega: Any, y: Any, turned: Any, vehicle: Vehicle, attitude: float
-) -> tuple[Any, Any]:
+def _feedback(t: float, read: Any, turned: Any, vehicle: Vehicle, attitude: float) -> tuple[Any, Any]:
     """Return the rotor forces (n,), N, that hold a place, with the doublets, and the error (3,) of attitude, rad.
 
-    `attitude` is the frequency of its loop, 1/s, and `turned` the integral of the error, rad s.
+    `read` are the position from that place, velocity, R, ω and y; `attitude` is the frequency of its loop, 1/s, and
+    `turned` the integral of the error, rad s.
     """
+    apart, speed, R, omega, y = read
     total, place = vehicle.mass + vehicle.bob_mass, PLACE_SHARE * attitude
     swung = SWAY * vehicle.gravity * np.append(y[:2], 0.0)
     force = total * (vehicle.gravity * E3 - place**2 * apart - 2 * place * speed - swung)
@@ -157,15 +141,11 @@ def _feedback(
     low, high = vehicle.rotor_limits
     room = min(vehicle.weight / len(vehicle.rotor_spins) - low, high - vehicle.weight / len(vehicle.rotor_spins))
     added = doublet(t) * room * np.abs(vehicle.mixing()[1:]).sum(axis=1)
-    most = _largest_tilt(vehicle) / DOUBLET_TIME**2 * np.diag(vehicle.I)[:2]
+    # The two halves T of a doublet change the speed of the pivot by g T times the tilt, and the rod swings.
+    tilt = min(TILT, SWING * np.sqrt(vehicle.gravity * vehicle.l) / (vehicle.gravity * DOUBLET_TIME))
+    most = tilt / DOUBLET_TIME**2 * np.diag(vehicle.I)[:2]
     moment = moment + np.append(np.clip(added[:2], -most, most), added[2])
     return np.clip(vehicle.unmixing() @ np.array([force @ R[:, 2], *moment]), low, high), error
-
-
-def _largest_tilt(vehicle: Vehicle) -> float:
-    """Return the tilt of a doublet, rad, at most: its two halves of T change the speed of the pivot by g T times it."""
-    swing = SWING * np.sqrt(vehicle.gravity * vehicle.l)
-    return float(min(TILT, swing / (vehicle.gravity * DOUBLET_TIME)))
 
 
 def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> tuple[Vehicle, Rehearsal]:

@@ -7,6 +7,7 @@ forces on vehicle and bob that the model lacks.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import accumulate, pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -32,8 +33,6 @@ ZERO = ca.SX.zeros(LOCAL)
 MOVING = {"rod_length": 1, "bob_mass": 1, "inertia": 3, "drag_ratio": 1, "pivot_offset": 3, "rotor_drag": 1, "wind": 2}
 READING = {"latency": 1, "gyro_bias": 3, "force_bias": 3, "misalignment": 3}
 CHANNELS = {"position": 3, "attitude": 3, "gyro": 3, "force": 3, "rod": 3}
-# Places of each channel among the readings.
-PLACES = {name: slice(3 * i, 3 * i + 3) for i, name in enumerate(CHANNELS)}
 
 
 def sizes(table: dict[str, int]) -> int:
@@ -41,10 +40,15 @@ def sizes(table: dict[str, int]) -> int:
     return sum(table.values())
 
 
+def places(table: dict[str, int]) -> dict[str, slice]:
+    """Return where each name of a table stands."""
+    ends = [0, *accumulate(table.values())]
+    return {name: slice(a, b) for name, (a, b) in zip(table, pairwise(ends), strict=True)}
+
+
 def split(table: dict[str, int], values: Any) -> dict[str, Any]:
     """Return `values`, an array or an expression, by the names of `table`."""
-    ends = np.cumsum([0, *table.values()])
-    return {name: values[int(a) : int(b)] for name, a, b in zip(table, ends, ends[1:], strict=False)}
+    return {name: values[place] for name, place in places(table).items()}
 
 
 def machine(vehicle: Vehicle, moving: Numbers) -> Any:

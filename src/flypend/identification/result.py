@@ -8,10 +8,8 @@ from typing import Any
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import Numbers
-from flypend.identification.fit import Fit
-from flypend.identification.model import CHANNELS, PLACES
-from flypend.identification.numbers import FIELDS, places
+from flypend.identification.fit import FIELDS, Fit
+from flypend.identification.model import CHANNELS, places
 from flypend.identification.rotors import patterns
 from flypend.model import Vehicle
 from flypend.model.rod import stretched
@@ -66,7 +64,6 @@ class Identified:
     plant: Plant
     untold: tuple[str, ...]
     _fit: Fit
-    _guess: Vehicle
 
     def report(self) -> str:
         """Return a page of text: every number with its band, what stays open, and how well the model fits."""
@@ -101,7 +98,7 @@ class Identified:
 
     def _explained(self, name: str) -> tuple[float, float, float]:
         """Return, of a channel's prediction errors, rms, rms over expected, and correlation of each with the next."""
-        errors, spreads = (part[:, PLACES[name]] for part in (self._fit.last.errors, self._fit.last.spreads))
+        errors, spreads = (part[:, places(CHANNELS)[name]] for part in (self._fit.last.errors, self._fit.last.spreads))
         known = np.isfinite(errors).all(axis=1)
         if known.sum() < 10:
             return np.nan, np.nan, np.nan
@@ -144,7 +141,7 @@ def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
         delay=float(values["delay"][0]), sag=float(values["sag"][0]), spin_up=float(values["spin_up"][0]),
         strength=tuple(strength),
     )  # fmt: skip
-    return Identified(vehicle, bands, plant.delay, plant, untold, fit, guess)
+    return Identified(vehicle, bands, plant.delay, plant, untold, fit)
 
 
 def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> Vehicle:
@@ -169,8 +166,3 @@ def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> 
 
 def _band(low: Any, high: Any) -> Band:
     return tuple(float(one[0]) if np.size(one) == 1 else tuple(map(float, one)) for one in (low, high))  # type: ignore[return-value]
-
-
-def numbers_of(result: Identified) -> Numbers:
-    """Return the searched numbers at the end of the search, in the order of `numbers.table`."""
-    return result._fit.search.plain(result._fit.theta)

@@ -13,6 +13,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.geometry import Numbers
+from flypend.identification.model import places
 from flypend.plants.lag import symbolic_timing
 from flypend.plants.motors import follow, sag_forces
 
@@ -46,24 +47,21 @@ def patterns(rotors: int) -> Any:
 
 
 @lru_cache(maxsize=4)
-def _programs(rotors: int) -> tuple[ca.Function, ca.Function]:
-    """Return (forces, target, duration, lag and spin-up) → forces after; and → integral and forces after."""
+def _programs(rotors: int, count: int) -> tuple[ca.Function, ca.Function, ca.Function]:
+    """Return programs of `rotors`, the second of which makes `count` holds, one after the other.
+
+    (commands, largest, sag) → what forces settle at; (forces, target and duration, lag and spin-up) → forces after; and
+    the same → their integral and forces after.
+    """
     f, target, h, timing = (ca.SX.sym(a, k) for a, k in (("f", rotors), ("u", rotors), ("h", 1), ("p", 2)))
     falling, rising = symbolic_timing(timing[0], h), symbolic_timing(timing[0] * timing[1], h)
     ramp, end = follow(f, target, ca.vertcat(falling, rising))
-    inputs = [f, ca.vertcat(target, h), timing]
-    return ca.Function("after", inputs, [end]), ca.Function("within", inputs, [ramp.mean * h, end])
-
-
-@lru_cache(maxsize=4)
-def _following(rotors: int, count: int) -> ca.Function:
-    return _programs(rotors)[0].mapaccum(count)
-
-
-@lru_cache(maxsize=4)
-def _settling(rotors: int) -> ca.Function:
-    command, most, sag = ca.SX.sym("u", rotors), ca.SX.sym("most"), ca.SX.sym("sag")
-    return ca.Function("settling", [command, most, sag], [sag_forces(command, most, sag)])
+    inputs, most, sag = [f, ca.vertcat(target, h), timing], ca.SX.sym("most"), ca.SX.sym("sag")
+    return (
+        ca.Function("settling", [f, most, sag], [sag_forces(f, most, sag)]),
+        ca.Function("after", inputs, [end]).mapaccum(count),
+        ca.Function("within", inputs, [ramp.mean * h, end]),
+    )
 
 
 def rotor_forces(
@@ -71,25 +69,17 @@ def rotor_forces(
 ) -> Forces:
     """Return the forces on the instants `grid` (k,), s, of commands (N, n) that are held from `t` (N,), s.
 
-    Parameters
-    ----------
-    t, command, grid
-        See above; commands are in N, or fractions with `pwm`.
-    numbers : dict
-        Values by the names of `rotor_table`.
-    most : float
-        Largest force of a rotor, N.
-    pwm : bool
-        Whether a command is a fraction of it.
+    Commands are in N, or with `pwm` fractions of `most`, the largest force of a rotor, N. `numbers` has values by the
+    names of `rotor_table`.
     """
     n = command.shape[1]
-    _, within = _programs(n)
+    settling, following, within = _programs(n, len(t))
     asked = command * most * (1 + numbers["curve"][0] * (command - 1)) if pwm else command
     strength = np.exp(numbers["scale"][0] + patterns(n) @ numbers["shares"])
-    target = np.asarray(_settling(n)(asked.T, most, numbers["sag"][0])) * strength[:, None]
+    target = np.asarray(settling(asked.T, most, numbers["sag"][0])) * strength[:, None]
     timing = np.array([numbers["lag"][0], numbers["spin_up"][0]])
     driven = np.vstack([target, np.append(np.diff(t), 1.0)])
-    ends = np.asarray(_following(n, len(t))(target[:, 0], driven, timing))
+    ends = np.asarray(following(target[:, 0], driven, timing))
     begin = np.column_stack([target[:, 0], ends[:, :-1]])
     whole = np.asarray(within(begin, driven, timing)[0])
     before = np.column_stack([np.zeros(n), np.cumsum(whole, axis=1)[:, :-1]])
@@ -111,13 +101,12 @@ def rotor_slopes(middle: Forces, forces: Any, rotors: Numbers, table: dict[str, 
     n = middle.now.shape[1]
     slopes = np.zeros((2, len(middle.now), n, len(rotors)))
     shape = np.column_stack([np.ones(n), patterns(n)])  # forces are proportional to their strengths
-    begin = 0
-    for name, size in table.items():
-        for i in range(begin, begin + size):
+    for name, place in places(table).items():
+        for i in range(place.start, place.stop):
             if not free[i]:
                 continue
             if name in ("scale", "shares"):
-                by = shape[:, i - begin + (name == "shares")]
+                by = shape[:, i - place.start + (name == "shares")]
                 slopes[0, :-1, :, i], slopes[1, :, :, i] = by * middle.mean, by * middle.now
                 continue
             moved = rotors.copy()
@@ -125,5 +114,4 @@ def rotor_slopes(middle: Forces, forces: Any, rotors: Numbers, table: dict[str, 
             other = forces(moved)
             slopes[0, :-1, :, i] = (other.mean - middle.mean) / DIFFERENCE[name]
             slopes[1, :, :, i] = (other.now - middle.now) / DIFFERENCE[name]
-        begin += size
     return slopes

@@ -74,7 +74,7 @@ class Imitation:
             phi, wanted = self._known[rng.integers(len(self._known))]
             chosen = rng.integers(phi.shape[1], size=BATCH)
             total += self._step(weights, with_hover(phi[:, chosen]), wanted[:, chosen], rate)
-        return float(np.sqrt(total / self._steps))
+        return float(np.sqrt(total / max(self._steps, 1)))
 
     def _step(self, weights: Weights, phi: Any, wanted: Any, rate: float) -> float:
         """Move `weights` by `rate` towards the commands `wanted` (n, k) for features `phi`; return the mean error²."""

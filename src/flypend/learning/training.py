@@ -15,14 +15,13 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
+from flypend.flight.tasks import touching
 from flypend.laws.learned import MOST_WEIGHTS, Policy
-from flypend.learning.course import Course
+from flypend.learning.course import Course, Machines
 from flypend.learning.flights import Costs, Flights
-from flypend.learning.machines import Machines
 from flypend.learning.network import Adam, Weights, first_weights
 from flypend.learning.teacher import RATE, Imitation, direct
 from flypend.model import State, Vehicle
-from flypend.model.mount import clearances
 from flypend.planning.dynamics import Units
 from flypend.plants.bands import check_bands
 from flypend.plants.sensors import Sensors
@@ -30,26 +29,6 @@ from flypend.signals.waiting import result_of, threads
 
 AHEAD = 0.3  # s: what touches does so soon, or can be helped later
 AMONG = 4  # starts flown for each that is kept
-
-
-class Scouts:
-    """Memory of short flights in the manner of a `course`, of which the `kept` most dangerous count."""
-
-    def __init__(self, course: Course, kept: int) -> None:
-        self._flights, self._kept = Flights(replace(course, duration=AHEAD), AMONG * kept), kept
-
-    @property
-    def count(self) -> int:
-        """Starts that are flown."""
-        return self._flights.count
-
-    def dangerous(self, weights: Weights, starts: Any) -> Any:
-        """Return those of `starts` (count, 24 + n), own units, whose rods come nearest to an arm under `weights`."""
-        self._flights.fly(weights, starts)
-        near = self._flights.costs[:, :, 2].max(axis=0).ravel()
-        return starts[np.argsort(-near, kind="stable")[: self._kept]]
-
-
 PARTS = 2  # of a batch, each flown by a thread; fixed, so that results do not depend on the machine's cores
 
 
@@ -91,8 +70,8 @@ class Training:
         if vehicle.mount == "cup":
             raise InputError("mount", "gimbal or hub: from random starts a rod leaves its cup at once", "cup")
         for name in ("rounds", "updates", "steps"):
-            errors.number(name, getattr(self, name), at_least=0)
-        if self.batch < 16 or self.batch % 16:
+            errors.integer(name, getattr(self, name), 0)
+        if errors.integer("batch", self.batch, 16) % 16:
             raise InputError("batch", "a multiple of 16", repr(self.batch))
         k, m = self.hidden
         size = 18 * (k + len(vehicle.rotor_spins)) + k + m * k + m + len(vehicle.rotor_spins) * m
@@ -151,7 +130,8 @@ class Learner:
         self.curve: list[Entry] = []
         self._parts = [Flights(training.course, training.batch // PARTS) for _ in range(PARTS)]
         self._machines = Machines.of(training.course, training.seed)
-        self._scouts = Scouts(training.course, training.batch // 2) if vehicle.mount == "hub" else None
+        short = replace(training.course, duration=AHEAD)
+        self._scouts = Flights(short, AMONG * (training.batch // 2)) if vehicle.mount == "hub" else None
         self._since: list[Costs] = []
 
     @property
@@ -166,18 +146,19 @@ class Learner:
         for i in range(training.rounds):
             rng = np.random.default_rng([training.seed, 1, i])
             with threadpool_limits(1, "blas"):
-                imitation.round(self.weights, self._starts(rng, flights.count), rng, RATE * falling(i, training.rounds))
+                begin = starts(training.course.vehicle, rng, flights.count)
+                imitation.round(self.weights, begin, rng, RATE * falling(i, training.rounds))
             self._add(flights.judged()[0], 0, i + 1, told)
 
     def descend(self, told: Callable[[Entry], Any] = lambda _: None) -> None:
         """Make the next update by descent; `told` is called with every new point of the curve."""
         training, i = self.training, self.done
         rng = np.random.default_rng([training.seed, 2, i])
-        starts = self._chosen(rng, training.batch).reshape(PARTS, -1, 24 + self._parts[0].rotors)
+        begin = np.split(self._starts(rng), PARTS)
         for part in self._parts:
             self._enter(part, rng)
         with threadpool_limits(1, "blas"), threads(PARTS) as pool:
-            calls = [pool.submit(self._flown, *part) for part in zip(self._parts, starts, strict=True)]
+            calls = [pool.submit(self._flown, *part) for part in zip(self._parts, begin, strict=True)]
             flown = [result_of(call) for call in calls]
         gradient = {name: np.sum([part[1][name] for part in flown], axis=0) / training.batch for name in self.weights}
         warm = min(1.0, (i + 1) / 20)
@@ -185,8 +166,7 @@ class Learner:
         self.done = i + 1
         self._since += [part[0] for part in flown]
         if self.done % EVERY == 0 or self.done == training.updates:
-            together = Costs(*(np.concatenate(values) for values in zip(*self._since, strict=True)))
-            self._add(together, 1, self.done, told)
+            self._add(Costs(*map(np.concatenate, zip(*self._since, strict=True))), 1, self.done, told)
             self._since = []
 
     def _enter(self, flights: Flights, rng: np.random.Generator) -> None:
@@ -201,18 +181,14 @@ class Learner:
         costs, to_costs = flights.judged()
         return costs, flights.gradient(self.weights, to_costs)
 
-    def _starts(self, rng: np.random.Generator, count: int) -> Any:
-        """Return random starts (count, 24 + n), own units, with rotors at their least."""
-        return starts(self.training.course.vehicle, rng, count)
-
-    def _chosen(self, rng: np.random.Generator, count: int) -> Any:
-        """Return `_starts`, of which half are dangerous ones under the present weights if the rod can touch a part."""
-        if self._scouts is None:
-            return self._starts(rng, count)
+    def _starts(self, rng: np.random.Generator) -> Any:
+        """Return `starts` of a batch; half are dangerous ones under the present weights if the rod can touch a part."""
+        vehicle, count, scouts = self.training.course.vehicle, self.training.batch, self._scouts
+        if scouts is None:
+            return starts(vehicle, rng, count)
         with threadpool_limits(1, "blas"):
-            dangerous = self._scouts.dangerous(self.weights, self._starts(rng, self._scouts.count))
-        both = np.concatenate([dangerous, self._starts(rng, count - len(dangerous))])
-        return both[rng.permutation(count)]
+            begin = dangerous(scouts, self.weights, starts(vehicle, rng, scouts.count), count // 2)
+        return rng.permutation(np.concatenate([begin, starts(vehicle, rng, count - len(begin))]))
 
     def _add(self, costs: Costs, phase: int, update: int, told: Callable[[Entry], Any]) -> None:
         """Add an entry of these `costs` to the curve, and tell it."""
@@ -224,13 +200,11 @@ class Learner:
 
     def save(self, path: Path) -> None:
         """Write the state of the training to `path`, .npz. Raises InputError if it is no longer finite."""
-        counts = {
-            "done": self.done,
-            "count": self.adam.count,
+        own = {
+            "told": _report(self.training), "done": self.done, "count": self.adam.count,
             "curve": np.reshape(self.curve, (-1, len(Entry._fields))),
-        }
-        told = {"told": _report(self.training)}
-        save_arrays(path, self._fields(), {**told, **counts, **self.weights, **self.adam.moments})
+        }  # fmt: skip
+        save_arrays(path, self._fields(), {**own, **self.weights, **self.adam.moments})
 
     def resume(self, path: Path) -> bool:
         """Take up the training saved in `path`; return whether there is one. Raises InputError if it is another."""
@@ -274,15 +248,17 @@ def falling(i: int, count: int) -> float:
 def starts(vehicle: Vehicle, rng: np.random.Generator, count: int) -> Any:
     """Return random starts (count, 24 + n) in own units, with free rods and rotors at their least."""
     n, found = len(vehicle.rotor_spins), State.random(rng, count)
-    while not np.all(free := _free(found, vehicle)):
+    while not np.all(free := ~touching(vehicle, found)):
         found = State.trusted(np.concatenate([found.packed()[free], State.random(rng, count).packed()])[:count])
     forces = np.full((count, n), vehicle.rotor_limits[0])
     return np.concatenate([found.packed(), forces], axis=1) / Units.of(vehicle).states(n)
 
 
-def _free(states: State, vehicle: Vehicle) -> Any:
-    """Whether the rods of `states` touch nothing."""
-    if vehicle.mount != "hub":
-        return np.ones(states.batch_shape, dtype=bool)
-    rods = np.einsum("nji,nj->ni", states.R, states.y)
-    return clearances(rods, vehicle.rotor_positions, vehicle.reach, vehicle.body).min(axis=-1) > 0
+def dangerous(scouts: Flights, weights: Weights, starts: Any, kept: int) -> Any:
+    """Return the `kept` of `starts` (count, 24 + n), own units, whose rods come nearest to an arm under `weights`.
+
+    `scouts` is the memory of their flights.
+    """
+    scouts.fly(weights, starts)
+    near = scouts.costs[:, :, 2].max(axis=0).ravel()
+    return starts[np.argsort(-near, kind="stable")[:kept]]

@@ -10,7 +10,7 @@ from flypend.flight.request import Flight
 from flypend.flight.tasks import task_starts
 from flypend.plants import MOTION_CAPTURE, ROTORS
 from flypend.studies import margins
-from flypend.studies.margins import RESOLUTION, quantities, search
+from flypend.studies.margins import RESOLUTION, Count, quantities, search
 
 HEHN = fp.vehicle("hehn2011")
 INVERTED = fp.laws.inverted().bind(HEHN)
@@ -26,9 +26,9 @@ def known(monkeypatch):
     def let(inside):
         def succeed(flight):
             flown.append(flight.plant)
-            return RUNS if inside(flight.plant) else RUNS // 2
+            return Count(RUNS if inside(flight.plant) else RUNS // 2, RUNS)
 
-        monkeypatch.setattr(margins, "_succeed", succeed)
+        monkeypatch.setattr(margins, "count_of", succeed)
         return flown
 
     return let

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -34,7 +35,7 @@ STUDY_KEYS = frozenset(
 # Settings that are lists of words; all other lists are of numbers.
 WORDS = ("plant.air", "plant.sensors.adjustable")
 TABLES = ("law.window",)
-_TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
+Record = TypeVar("Record")
 
 
 class RunFile(NamedTuple):
@@ -44,6 +45,16 @@ class RunFile(NamedTuple):
     settings: dict[str, Any]
 
 
+@contextmanager
+def shallow(field: str) -> Iterator[None]:
+    """Raise InputError, for `field`, if settings that the block goes through are nested too deeply for Python."""
+    try:
+        yield
+    except RecursionError:
+        raise InputError(field, "settings nested a few levels deep", "hundreds of levels") from None
+
+
+@shallow("run")
 def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -> RunFile:
     """Return the run `what`: an experiment of the paper by name, or a TOML file by path.
 
@@ -52,26 +63,21 @@ def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -
 
     Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
-    try:
-        settings = _read(what)
-        if law is not None:
-            settings["law"] = table_of(law)
-        for override in overrides:
-            _override(settings, override)
-        return run_of(settings)
-    except RecursionError:
-        raise _TOO_DEEP from None
+    settings = _read(what)
+    if law is not None:
+        settings["law"] = table_of(law)
+    for override in overrides:
+        _override(settings, override)
+    return run_of(settings)
 
 
+@shallow("run")
 def run_of(settings: dict[str, Any]) -> RunFile:
     """Return the run that `settings`, the content of a TOML file, specifies. Raises InputError like `run_file`."""
-    try:
-        for key, value in settings.items():
-            check_plain(key, value)
-        with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
-            return _build(_complete(settings))
-    except RecursionError:
-        raise _TOO_DEEP from None
+    for key, value in settings.items():
+        check_plain(key, value)
+    with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
+        return _build(_complete(settings))
 
 
 def run_text(settings: dict[str, Any], folder: str | Path) -> str:
@@ -171,9 +177,7 @@ def plant_of(value: Any) -> AnyPlant:
         return replace(base, **given)
     for key, kind in (("noise", Noise), ("wind", Wind)):
         if key in given:
-            table = table_at(given, key)
-            errors.only_known(f"plant.{key}", table, [entry.name for entry in fields(kind)])
-            given[key] = kind(**table)
+            given[key] = record_at(given, key, kind, f"plant.{key}")
     return base.replace(**given)
 
 
@@ -193,12 +197,19 @@ def _controller(law: Law | Controller, vehicle: Vehicle, world: AnyPlant, kind: 
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 
-def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
+def table_at(settings: Mapping[str, Any], key: str, field: str = "") -> dict[str, Any]:
     """Return the table `key` of `settings`, empty if absent. Raises InputError, with the field name `field`."""
     value = settings.get(key, {})
     if not isinstance(value, dict):
         raise InputError(field or key, "a table", repr(value))
     return dict(value)
+
+
+def record_at(settings: Mapping[str, Any], key: str, kind: type[Record], field: str = "") -> Record:
+    """Return the record whose fields the table `key` of `settings` has. Raises InputError, with the name `field`."""
+    table = table_at(settings, key, field)
+    errors.only_known(field or key, table, [entry.name for entry in fields(cast("Any", kind))])
+    return kind(**table)
 
 
 def _override(settings: dict[str, Any], text: str) -> None:

@@ -15,14 +15,13 @@ from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.feasibility import feasibility
-from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import task_starts
 from flypend.laws import inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
-from flypend.studies.margins import LEAST_RATE
+from flypend.studies.margins import LEAST_RATE, Count
 
 RUNS, DURATION = 100, 30.0  # flights of a changed vehicle, and seconds of each, as in a check
 # Factors of each number, from a small change to the largest that leaves the machine recognisable, and how to make it.
@@ -61,8 +60,7 @@ class Change:
 
     def describe(self) -> str:
         """Return change and success with its Wilson interval, 95 %, in a line."""
-        low, high = wilson(self.successes, self.runs)
-        return f"{self.how}: {self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
+        return f"{self.how}: {Count(self.successes, self.runs).describe()}"
 
 
 @dataclass(frozen=True)
@@ -215,6 +213,5 @@ def _judged(check: Check) -> Ensemble:
 
 
 def _told(flown: Ensemble) -> str:
-    low, high = flown.interval
-    share = f"{int(flown.success.sum())} of {len(flown)} ({100 * low:.1f} to {100 * high:.1f} %)"
-    return f"{share}, {flown.percentile('excursion', 50):.3g} m off in the median"
+    count = Count(int(flown.success.sum()), len(flown))
+    return f"{count.describe()}, {flown.percentile('excursion', 50):.3g} m off in the median"

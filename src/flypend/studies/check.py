@@ -26,7 +26,7 @@ from flypend.plants.bands import check_bands
 from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import fly_within
 from flypend.studies.compare import summary
-from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
+from flypend.studies.margins import LEAST_RATE, Count, Margin, quantities, search
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -126,9 +126,9 @@ class Check:
         lines = [f"<Check of {self.law} on {self.vehicle.name}: {'can' if self.ok else 'cannot'} be flown"]
         lines += [f"  {line}" for line in (*self.reasons, *self.warnings, self.possible) if line]
         for name, row in self.rows().items():
-            span = f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f} %"
+            count = Count(row["successes"], row["runs"]).describe()
             lines.append(
-                f"  {name:7} {self.envelope[name]}: {row['successes']} of {row['runs']} ({span}), "
+                f"  {name:7} {self.envelope[name]}: {count}, "
                 f"excursion {row['excursion_p50']:.3g}/{row['excursion_p95']:.3g} m"
             )
         if self.catch is not None:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from flypend import errors, plants, signals
 from flypend.errors import InputError
-from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
@@ -22,8 +21,7 @@ from flypend.plants import PRESETS, SUITES, AnyPlant, Sampled
 from flypend.plants.bands import world_of
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
-from flypend.signals.waiting import result_of, threads
-from flypend.studies.margins import LEAST_RATE, SEARCHES
+from flypend.studies.margins import LEAST_RATE, Count, count_of, fly_beside, for_each
 from flypend.studies.trial import is_up, knock_on
 
 # Half widths, relative, of the bands of a vehicle that has none: weighed and measured in haste.
@@ -42,23 +40,6 @@ POKES, POKE_PERIOD, SAMPLE = 48, 12.0, 0.05
 NOT_YET = 1e-12  # of a poke, so that all flights of a vehicle share a kernel
 
 Progress = Callable[[str, int, int], Any]
-
-
-class Count(NamedTuple):
-    """How many of `runs` flights succeed."""
-
-    successes: int
-    runs: int
-
-    @property
-    def rate(self) -> float:
-        """Share of the flights that succeed."""
-        return self.successes / self.runs
-
-    def describe(self) -> str:
-        """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
-        low, high = wilson(*self)
-        return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
 
 
 @dataclass(frozen=True)
@@ -299,8 +280,7 @@ def joint(
     flight = Flight(
         vehicle=vehicle, law=bound, starts=starts["random"].in_frame(bound.e3), duration=DURATION, plant=world
     )
-    compiled = has_kernel(flight)
-    if runs is None and not compiled:
+    if runs is None and not has_kernel(flight):
         starts = {name: some[:SLOW_RUNS] for name, some in starts.items()}
     rng = np.random.default_rng(seed)
     drawn = [Errors(vehicle, world, rng) for _ in range(DRAWS)]
@@ -348,7 +328,6 @@ def _fly_tasks(
 ) -> tuple[dict[str, Count], Errors]:
     """Return success of each task, whose starts the draws share, and the draw in which most random starts fail."""
     vehicle, law = flight.vehicle, flight.law
-    compiled = has_kernel(flight)
     poked = min(POKES, 2 * len(starts["random"]))
     all_starts = {**starts, "pokes": State(y=np.tile([0.0, 0.0, 1.0], (poked, 1)))}
     speed = float(np.sqrt(vehicle.g * vehicle.l))
@@ -365,16 +344,10 @@ def _fly_tasks(
             )  # fmt: skip
             if name == "pokes":
                 one = one.replace(duration=2 * POKE_PERIOD, times=np.arange(0.0, 2 * POKE_PERIOD, SAMPLE))
-            flown = _flown(one, 1 if compiled else None)
-            good = 0 if flown is None else int((_stands(flown) if name == "pokes" else flown.success).sum())
-            found[name] = Count(good, len(mine))
+            found[name] = _counted(one, _stand_of if name == "pokes" else count_of)
         return found
 
-    found: list[dict[str, Count]] = []
-    with threads(SEARCHES if compiled else 1) as pool:
-        for job in [pool.submit(fly, place) for place in range(len(drawn))]:
-            found.append(result_of(job))
-            progress("all errors at once", len(found), len(drawn))
+    found = for_each(flight, fly, range(len(drawn)), partial(progress, "all errors at once"))
     tasks = {
         name: Count(*map(sum, zip(*(one[name] for one in found if name in one), strict=True))) for name in all_starts
     }
@@ -382,29 +355,20 @@ def _fly_tasks(
     return tasks, drawn[worst]
 
 
-def _stands(poked: Ensemble) -> Any:
-    """Whether the rod is up for more than half of each half of a flight."""
-    return np.all([half.mean(axis=1) > 0.5 for half in np.hsplit(is_up(poked), 2)], axis=0)
+def _stand_of(poked: Flight) -> Count:
+    """Return in how many runs the rod is up for more than half of each half of the flight."""
+    stands = np.all([half.mean(axis=1) > 0.5 for half in np.hsplit(is_up(fly_beside(poked)), 2)], axis=0)
+    return Count(int(stands.sum()), poked.runs)
 
 
 def _fly(flight: Flight, worlds: Sequence[Sampled], progress: Callable[[int, int], Any]) -> list[Count]:
     """Fly every start of `flight` in each of `worlds`."""
-    compiled, out = has_kernel(flight), []
-
-    def fly(world: Sampled) -> Count:
-        flown = _flown(flight, 1 if compiled else None, world)
-        return Count(0 if flown is None else int(flown.success.sum()), flight.runs)
-
-    with threads(SEARCHES if compiled else 1) as pool:
-        for job in [pool.submit(fly, world) for world in worlds]:
-            out.append(result_of(job))
-            progress(len(out), len(worlds))
-    return out
+    return for_each(flight, lambda world: _counted(flight.through(world)), worlds, progress)
 
 
-def _flown(flight: Flight, workers: int | None, world: Sampled | None = None) -> Ensemble | None:
-    """Return the flights, or None if such a vehicle cannot fly."""
+def _counted(flight: Flight, count: Callable[[Flight], Count] = count_of) -> Count:
+    """Return the `count` of a `flight`: none if such a vehicle cannot fly."""
     try:
-        return fly_many(flight if world is None else flight.through(world), workers=workers)
+        return count(flight)
     except InputError:
-        return None
+        return Count(0, flight.runs)

@@ -18,6 +18,7 @@ from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.bands import check_bands
+from flypend.settings.runfile import record_at
 from flypend.studies.bands import worlds_within
 from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
@@ -253,10 +254,6 @@ def _task(made: Study) -> _Task:
     if made.sampling == "latin":
         raise InputError("sampling", "'uniform' or 'sobol', where gains are tuned", "'latin'")
     limits = _limits(made)
-    weights = table.get("objective", {})
-    if not isinstance(weights, Mapping):
-        raise InputError("tune.objective", "a table of weights", repr(weights))
-    errors.only_known("tune.objective", weights, [entry.name for entry in fields(Objective)])
     population = table.get("population")
     bands = errors.integer("tune.bands", table.get("bands", 0), 0, MOST_DRAWN)
     if bands and not isinstance(made.flight.plant, Sampled):
@@ -268,7 +265,7 @@ def _task(made: Study) -> _Task:
         names=tuple(limits),
         low=np.array([low for low, _ in limits.values()]),
         high=np.array([high for _, high in limits.values()]),
-        objective=Objective(**weights),
+        objective=record_at(table, "objective", Objective, "tune.objective"),
         bands=bands,
         runs=errors.integer("tune.runs", table.get("runs", 200), 1),
         generations=errors.integer("tune.generations", table.get("generations", 30), 1),

@@ -11,6 +11,7 @@ import numpy as np
 from flypend import errors
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
+from flypend.settings.runfile import table_at
 
 # Dimensions of the sample: y uniform on S², R on SO(3), vectors in balls, y_dot in a tangent disc. Scalars have ranges.
 UNIFORM = {"y": 2, "R": 3}
@@ -62,14 +63,14 @@ def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> t
     """
     errors.only_known("vary", table, ("start", "gains", "plant"))
     found = []
-    for name, value in _table(table, "plant").items():
+    plants, gains, start = (table_at(table, key, f"vary.{key}") for key in ("plant", "gains", "start"))
+    for name, value in plants.items():
         found += _plant_axes(name, value, plant)
-    for name, value in _table(table, "gains").items():
+    for name, value in gains.items():
         errors.only_known("vary.gains", [name], law.numbers)
         axis = _range("gains", name, value)
         law.check_gain(name, axis.values or (axis.low, axis.high), "vary.gains")
         found.append(axis)
-    start = _table(table, "start")
     errors.only_known("vary.start", start, (*UNIFORM, *BALLS, *ANGLES))
     for two, one in ((("tilt", "azimuth"), "y"), (("rate", "heading"), "y_dot")):
         if one in start and set(two) & set(start):
@@ -78,13 +79,6 @@ def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> t
         raise InputError("vary.start", "rate and heading with tilt and azimuth", "rate or heading with y")
     found += [_start_axis(name, value) for name, value in start.items()]
     return tuple(found)
-
-
-def _table(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    value = table.get(key, {})
-    if not isinstance(value, Mapping):
-        raise InputError(f"vary.{key}", "a table", repr(value))
-    return value
 
 
 def _start_axis(name: str, value: Any) -> Axis:
@@ -151,4 +145,4 @@ def _range(group: str, name: str, value: Any) -> Axis:
 
 def _check_points(field: str, points: int, least: int) -> None:
     if not least <= points <= MOST_POINTS:
-        raise InputError(f"{field}", f"{least} to {MOST_POINTS} points", points)
+        raise InputError(field, f"{least} to {MOST_POINTS} points", points)

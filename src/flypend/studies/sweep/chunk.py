@@ -81,8 +81,7 @@ def program_digest(study: Study) -> str:
     A callable law, which is not compiled, enters by the text of its file.
     """
     digest = hashlib.sha256()
-    cells = int(np.prod(study.shape, dtype=object))
-    for cell in _plant_cells(study, cells):
+    for cell in study.plant_cells:
         run = cell * study.samples
         (flight,) = flights(study, design(study, run, run + 1))
         if isinstance(flight.law, Controller):
@@ -95,16 +94,9 @@ def program_digest(study: Study) -> str:
     return digest.hexdigest()
 
 
-def _plant_cells(study: Study, cells: int) -> range:
-    """The first cell of each plant in the grid."""
-    plants = int(np.prod([len(axis.values) for axis in study.grid if axis.group == "plant"], dtype=object))
-    return range(0, cells, cells // plants)
-
-
 def _by_plant(study: Study, drawn: Design) -> list[slice]:
     """Stretches of runs on one plant; they are consecutive because plants are outermost in the grid."""
-    cells = int(np.prod(study.shape, dtype=object))
-    plant = drawn.cells // _plant_cells(study, cells).step
+    plant = drawn.cells // study.plant_cells.step
     ends = [0, *(np.flatnonzero(np.diff(plant)) + 1).tolist(), len(plant)]
     return [slice(a, b) for a, b in pairwise(ends)]
 

@@ -104,13 +104,14 @@ def add_arrays(group: Any, study: Study) -> None:
     )  # fmt: skip
 
 
-def model(study: Study) -> Any:
-    """Return a store in memory with the arrays of `add_arrays` and no data, to compare with."""
+def model(study: Study) -> tuple[Any, Mapping[str, Any]]:
+    """Return a store in memory with the arrays of `add_arrays` and no data, to compare with, and its files."""
     import zarr
 
-    group = zarr.create_group(zarr.storage.MemoryStore())
+    files: dict[str, Any] = {}
+    group = zarr.create_group(zarr.storage.MemoryStore(files))
     add_arrays(group, study)
-    return group
+    return group, files
 
 
 def alike(found: Any, wanted: Any) -> bool:

@@ -10,11 +10,9 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import shutil
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 from uuid import uuid4
 
@@ -158,7 +156,7 @@ class Store:
 
     def _opened(self, writable: bool) -> dict[str, Any]:
         """The arrays by name, their metadata compared with those of a new store."""
-        model = layout.model(self.study)
+        model, files = layout.model(self.study)
         found = {}
         for name, wanted in model.arrays():
             array = _array_in(self.path, self._group, name)
@@ -166,7 +164,7 @@ class Store:
                 if not writable:
                     told = f"the metadata of {name} as they were written (flypend sweep restores them)"
                     raise InputError(str(self.path), told, "none" if array is None else "others")
-                _restore(self.path, name, self.study)
+                _restore(self.path / name / METADATA, files[f"{name}/{METADATA}"].to_bytes())
                 array = self._group[name]
             found[name] = array
         return found
@@ -184,17 +182,12 @@ def _array_in(path: Path, group: Any, name: str) -> Any:
     return array if isinstance(array, zarr.Array) else None
 
 
-def _restore(path: Path, name: str, study: Study) -> None:
-    """Write the metadata of the array `name` in the store at `path`, as in a new store."""
-    import zarr
-
-    target = path / name / METADATA
+def _restore(target: Path, metadata: bytes) -> None:
+    """Write the `metadata` of an array."""
     try:
-        with TemporaryDirectory() as new:
-            layout.add_arrays(zarr.create_group(new), study)
-            target.parent.mkdir(exist_ok=True)
-            partial = target.with_name(f"zarr.{uuid4().hex}.partial")
-            shutil.copyfile(Path(new) / name / METADATA, partial)
+        target.parent.mkdir(exist_ok=True)
+        partial = target.with_name(f"zarr.{uuid4().hex}.partial")
+        partial.write_bytes(metadata)
         partial.replace(target)
     except OSError as error:
         raise InputError(str(target), "a file that can be written", error.strerror or error) from None

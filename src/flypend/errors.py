@@ -336,10 +336,8 @@ def install_command(extra: str) -> str:
     gone or unknown, the command names the packages of the extra that are missing.
     """
     import json  # what only a missing extra needs is imported here: every command imports this module
-    import re
     import shlex
     from importlib import metadata
-    from pathlib import Path
     from urllib.parse import urlsplit
     from urllib.request import url2pathname
 

@@ -21,11 +21,11 @@ from flypend.paper.proved import fly_repaired, theorem_a_claims
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks
+from flypend.report.text import Column
 from flypend.signals.waiting import processes, result_of
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")
-Column = tuple[str, str]
 Progress = Callable[[str, int, int], None]
 
 

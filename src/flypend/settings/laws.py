@@ -6,7 +6,7 @@ import importlib
 import os
 import sys
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from pathlib import Path
 from threading import RLock
@@ -60,10 +60,7 @@ def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | 
     key : str
         Field name for error messages.
 
-    Raises
-    ------
-    InputError
-        If anything is unknown or out of range, or if a file or module fails to load.
+    Raises InputError if anything is unknown or out of range, or if a file or module fails to load.
     """
     if isinstance(value, Law | Controller):
         return value
@@ -153,10 +150,7 @@ def own_from(value: Any, folder: Path | None, name: str, key: str) -> Any:
 
 def absolute(value: Any, folder: Path) -> Any:
     """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
-    if isinstance(value, Mapping):
-        return {**value, **{name: absolute(value[name], folder) for name in PLACES if name in value}}
-    file, attribute = _split(value) if isinstance(value, str) else ("", "")
-    return f"{(folder / file).resolve()}{attribute}" if file else value
+    return _moved(value, lambda file: str((folder / file).resolve()))
 
 
 def relative(value: Any, folder: Path) -> Any:
@@ -164,15 +158,22 @@ def relative(value: Any, folder: Path) -> Any:
 
     A path on another drive stays absolute.
     """
+
+    def moved(file: str) -> str:
+        try:
+            return Path(os.path.relpath(file, folder.resolve())).as_posix()
+        except ValueError:
+            return file
+
+    return _moved(value, moved)
+
+
+def _moved(value: Any, move: Callable[[str], str]) -> Any:
+    """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):
-        return {**value, **{name: relative(value[name], folder) for name in PLACES if name in value}}
-    file, attribute = _split(value)
-    if not file:
-        return value
-    try:
-        return f"{Path(os.path.relpath(file, folder.resolve())).as_posix()}{attribute}"
-    except ValueError:
-        return value
+        return {**value, **{name: _moved(value[name], move) for name in PLACES if name in value}}
+    file, attribute = _split(value) if isinstance(value, str) else ("", "")
+    return f"{move(file)}{attribute}" if file else value
 
 
 def _is_place(name: str) -> bool:

@@ -237,7 +237,6 @@ def _override(settings: dict[str, Any], text: str) -> None:
 
 
 def _build(settings: dict[str, Any]) -> RunFile:
-    errors.only_known("", settings, KEYS)
     vehicle, plant = Vehicle.from_dict(table_at(settings, "vehicle")), plant_of(settings.get("plant", "rotors"))
     law = _controller(law_from(settings["law"]), vehicle, plant, settings.get("controller", "python"))
     flight = Flight(

@@ -132,7 +132,11 @@ def advise(
     progress : callable
         Called with `(task, done, total)`.
     """
-    flown = {law: _judged(check) for law, check in checks.items() if check.ok and check.tasks}
+    flown = {
+        law: check.tasks.get("drawn", check.tasks["random"])
+        for law, check in checks.items()
+        if check.ok and check.tasks
+    }
     why = "; ".join(f"{law}: {_told(flown[law])}" if law in flown else f"{law}: cannot hover" for law in checks)
     best = best_of(flown)
     written = tuple(law for law in flown if checks[law].tasks["random"].rate >= LEAST_RATE)
@@ -206,10 +210,6 @@ def _flown(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed:
 def _number(vehicle: Vehicle, name: str) -> str:
     value, unit = np.ravel(getattr(vehicle, name))[-1], UNITS[name]
     return f"{value:.3g} {unit}"
-
-
-def _judged(check: Check) -> Ensemble:
-    return check.tasks.get("drawn", check.tasks["random"])
 
 
 def _told(flown: Ensemble) -> str:

@@ -114,11 +114,8 @@ def measure_basin(
     progress : callable
         Called with (task, done, total).
 
-    Raises
-    ------
-    InputError
-        If runs, seed or starts are invalid, the theorem does not cover the vehicle, or the extra "studies"
-        is missing.
+    Raises InputError if runs, seed or starts are invalid, the theorem does not cover the vehicle, or the extra
+    "studies" is missing.
     """
     errors.require("scipy", extra="studies", for_="basin")
     from scipy.stats import beta  # slow to import

@@ -30,7 +30,7 @@ NOT_FLOWN = ("rotor_limits", "rotor_drag", "latency")  # bands that `world_of` l
 LIMITS = {"sag": MOST_SAG, "delay": LONGEST_DELAY}  # beyond which there is no plant
 JOINTS_OFF = float(np.radians(0.5))  # zeros of encoders, as the angles of the suite "laboratory"
 SCALES = (1.0, 2.0, 4.0)  # of all errors together, until success drops below LEAST_RATE
-SHARES = (0.5, 0.25, 0.125, 0.0)  # of an error that is calibrated
+SHARES = (0.5, 0.25, 0.125)  # of an error that is calibrated
 DRAWS = 6  # vehicles drawn from the bands
 # Random starts of all draws together and of one variant, and both where flights are slow.
 RUNS, VARIANT_RUNS, SLOW_RUNS = 384, 48, 6
@@ -149,7 +149,8 @@ class Errors:
     """
 
     def __init__(self, vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> None:
-        bands = vehicle.bands or {name: _about(getattr(vehicle, name), share) for name, share in USUAL.items()}
+        usual = {name: getattr(vehicle, name) * np.array([1 - share, 1 + share]) for name, share in USUAL.items()}
+        bands = vehicle.bands or usual
         drawn = {name: np.asarray(rng.uniform(*map(np.array, band))) for name, band in bands.items()}
         self._vehicle, self._drawn = vehicle, {name: v for name, v in drawn.items() if name not in NOT_FLOWN}
         self._defects = _defects(plant)
@@ -213,10 +214,6 @@ class Errors:
         if np.all(written > 0) and np.all(drawn > 0) and name not in ("sag", "delay"):
             return written * (drawn / written) ** scale
         return _limited(name, written + scale * (drawn - written))
-
-
-def _about(value: float, share: float) -> tuple[float, float]:
-    return value * (1 - share), value * (1 + share)
 
 
 def _limited(name: str, value: Any) -> Any:
@@ -316,7 +313,7 @@ def _explain(
             (kept,) = _fly(flight, [wrong.variant(whole | dict.fromkeys(off, 0.0))], partial(progress, "several off"))
         if kept.rate >= LEAST_RATE:
             break
-    for share in SHARES[:-1]:
+    for share in SHARES:
         (count,) = _fly(flight, [wrong.variant(whole | dict.fromkeys(off, share * scale))], partial(progress, "shares"))
         if count.rate >= LEAST_RATE:
             return tuple(causes), tuple(off), share, count

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from threading import Event
@@ -160,9 +160,9 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
             lambda d: 1e3 * (plant.delay + d), 0.1 * time, longest - plant.delay, both=False,
         ),
         _rotor_lag(plant, plant.true_vehicle(vehicle).rotor_lag, time),
-        Quantity("rod length", "times the believed", 1.0, mismatch(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
+        Quantity("rod length", "times the believed", 1.0, mismatch(plant, "rod_length"), _factor, 0.1, 3.0),
         Quantity(
-            "mass", "times the believed", 1.0, mismatch(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0
+            "mass", "times the believed", 1.0, mismatch(plant, "mass", "bob_mass"), _factor, 0.2, 3.0
         ),
         Quantity(
             "noise", "of the plant's" if noisy else "of motion capture's", least,
@@ -241,13 +241,12 @@ def _factor(distance: float) -> float:
     return 1 + distance if distance >= 0 else 1 / (1 - distance)
 
 
-def mismatch(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
-    """Return factor → `plant` whose mismatch of each name in `powers` is multiplied by factor to that power."""
+def mismatch(plant: Sampled, *names: str) -> Callable[[float], Sampled]:
+    """Return factor → `plant` whose mismatch of each of `names` is multiplied by that factor."""
 
     def changed(factor: float) -> Sampled:
-        known = plant.mismatch
-        more = {name: known.get(name, 1.0) * factor**power for name, power in powers.items()}
-        return plant.replace(mismatch={**known, **more})
+        more = {name: plant.mismatch.get(name, 1.0) * factor for name in names}
+        return plant.replace(mismatch={**plant.mismatch, **more})
 
     return changed
 

@@ -162,18 +162,12 @@ def trial(
 
 def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampled]]:
     """Return factor → plant, for each number of the model that is not zero."""
-    names = {
-        "mass": ("mass",), "bob_mass": ("bob_mass",), "rod_length": ("rod_length",), "rod_inertia": ("rod_inertia",),
-        "inertia": ("inertia",), "arm": ("rotor_positions",), "drag_ratio": ("drag_ratio",),
-    }  # fmt: skip
-    found = {
-        name: mismatch(plant, dict.fromkeys(fields, 1.0))
-        for name, fields in names.items()
-        if name != "rod_inertia" or vehicle.rod_inertia > 0
-    }
+    heavy = ("rod_inertia",) if vehicle.rod_inertia > 0 else ()
+    names = ("mass", "bob_mass", "rod_length", *heavy, "inertia", "arm", "drag_ratio")
+    found = {name: mismatch(plant, {"arm": "rotor_positions"}.get(name, name)) for name in names}
     found["thrust"] = lambda factor: plant.replace(strength=factor * np.asarray(plant.strength))
     if plant.true_vehicle(vehicle).rotor_lag > 0:
-        found["rotor_lag"] = mismatch(plant, {"rotor_lag": 1.0})
+        found["rotor_lag"] = mismatch(plant, "rotor_lag")
     if plant.delay > 0:
         found["delay"] = lambda factor: plant.replace(delay=plant.delay * factor)
     return found

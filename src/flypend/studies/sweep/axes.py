@@ -125,7 +125,8 @@ def _range(group: str, name: str, value: Any) -> Axis:
         if len(value) > 1:
             raise InputError(field, "values alone", repr(dict(value)))
         listed = errors.array(f"{field}.values", value["values"], (None,))
-        _check_points(field, len(listed), 1)
+        if not 1 <= len(listed) <= MOST_POINTS:
+            raise InputError(field, f"1 to {MOST_POINTS} points", len(listed))
         return Axis(group, name, 0, values=tuple(listed.tolist()))
     for key in ("from", "to"):
         if key not in value:
@@ -137,12 +138,6 @@ def _range(group: str, name: str, value: Any) -> Axis:
         raise InputError(field, "a range of finite length", f"{low:g} to {high:g}")
     if "points" not in value:
         return Axis(group, name, 1, low, high, log)
-    points = errors.integer(f"{field}.points", value["points"], 2)
-    _check_points(field, points, 2)
+    points = errors.integer(f"{field}.points", value["points"], 2, MOST_POINTS)
     spaced = np.geomspace(low, high, points) if log else np.linspace(low, high, points)
     return Axis(group, name, 0, values=tuple(spaced.tolist()))
-
-
-def _check_points(field: str, points: int, least: int) -> None:
-    if not least <= points <= MOST_POINTS:
-        raise InputError(field, f"{least} to {MOST_POINTS} points", points)

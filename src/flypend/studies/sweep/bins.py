@@ -90,9 +90,7 @@ class Runs:
     @property
     def number(self) -> int:
         """Number of runs flown."""
-        size, last = self.study.chunk, self.study.chunks - 1
-        short = self.study.runs - size * last if last in self._numbers else size
-        return size * (len(self._numbers) - 1) + short
+        return sum(len(self.study.rows(number)) for number in self._numbers)
 
     def gather(self, grids: Sequence[Grid]) -> list[Cells]:
         """Return the statistics of the cells of each of `grids`, in one pass over the store.

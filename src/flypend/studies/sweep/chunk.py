@@ -49,8 +49,8 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
     """
     with building:
         made = _study_of(text, program)
-    first = number * made.chunk
-    return fly_range(made, first, min(first + made.chunk, made.runs))
+    rows = made.rows(number)
+    return fly_range(made, rows.start, rows.stop)
 
 
 def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:

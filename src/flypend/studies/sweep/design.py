@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import prod
 from typing import Any
 
 import numpy as np
 
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.model.state import FLIP, SHAPES, SIZE
+from flypend.model.state import FLIP, SHAPES
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.axes import ANGLES, Axis
 from flypend.studies.sweep.study import Study
@@ -55,7 +56,12 @@ def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> 
         if group != "start":
             columns[f"{group}.{name}"] = value
     gains = {name: value for (group, name), value in numbers.items() if group == "gains"}
-    return Design(_pack(study, fields, len(index)), gains, cells, columns)
+    runs, fixed = len(index), study.flight.starts
+    parts = [
+        np.broadcast_to(fields.get(name, getattr(fixed, name)), (runs, *shape)).reshape(runs, prod(shape))
+        for name, shape in SHAPES.items()
+    ]
+    return Design(np.concatenate(parts, axis=1), gains, cells, columns)
 
 
 def _draw(study: Study, members: Any, stream: int) -> Any:
@@ -108,15 +114,3 @@ def _by_angles(
     fields["y"] = y @ flip
     if {"rate", "heading"} & set(given):
         fields["y_dot"] = y_dot @ flip
-
-
-def _pack(study: Study, fields: dict[str, Any], runs: int) -> Any:
-    packed = np.empty((runs, SIZE))
-    packed[:] = study.flight.starts.packed()
-    place = 0
-    for name, shape in SHAPES.items():
-        width = int(np.prod(shape))
-        if name in fields:
-            packed[:, place : place + width] = fields[name].reshape(runs, width)
-        place += width
-    return packed

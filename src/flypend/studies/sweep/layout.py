@@ -23,15 +23,7 @@ from flypend.studies.sweep.study import Study
 
 MARKS = "whole"
 LARGEST_HEADER = 16  # bytes that Blosc adds to what it cannot compress
-ROWS = {
-    "y": "axis",
-    "y_dot": "axis",
-    "x": "axis",
-    "x_dot": "axis",
-    "omega": "axis",
-    "quat_xyzw": "quat",
-    "final": "packed",
-}
+ROWS = dict.fromkeys(("x", "x_dot", "omega", "y", "y_dot"), "axis") | {"quat_xyzw": "quat", "final": "packed"}
 UNITS = {
     "settling": "s", "excursion": "m", "peak_force": "N", "end": "s", "clearance": "m", "x": "m", "x_dot": "m/s",
     "omega": "rad/s", "lowest": "m", "box_x": "m", "box_y": "m", "box_z": "m",

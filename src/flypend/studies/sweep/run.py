@@ -86,7 +86,7 @@ def sweep(
             discard(store)
         kept = open_store(store, made, program, versions())
         missing = [number for number in range(made.chunks) if not kept.whole(number)]
-        done = made.runs - sum(_length(made, number) for number in missing)
+        done = made.runs - sum(len(made.rows(number)) for number in missing)
         progress(done, made.runs)
         if scheduler is None:
             flown = _fly_here(made.text(), program, missing, workers or os.cpu_count() or 1, processes)
@@ -96,7 +96,7 @@ def sweep(
             with closing(flown):
                 for number, columns in flown:
                     kept.write(number, columns)
-                    done += _length(made, number)
+                    done += len(made.rows(number))
                     progress(done, made.runs)
     return dataset(kept.path)
 
@@ -142,10 +142,6 @@ def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str
     """Return number and result of a chunk; `stop` is the word of the process that asks."""
     with join(stop):
         return number, fly_chunk(text, number, program)
-
-
-def _length(study: Study, number: int) -> int:
-    return min(study.chunk, study.runs - number * study.chunk)
 
 
 def dataset(path: str | Path) -> xarray.Dataset:

@@ -54,16 +54,6 @@ class Store:
         """Names of the columns, sorted."""
         return sorted(self._arrays)
 
-    @property
-    def runs(self) -> int:
-        """Number of runs."""
-        return self.study.runs
-
-    @property
-    def chunk(self) -> int:
-        """Runs per chunk."""
-        return self.study.chunk
-
     def write(self, number: int, columns: Mapping[str, Any]) -> None:
         """Write chunk `number`, then its mark.
 
@@ -138,7 +128,8 @@ class Store:
         return int(self._marks[number])
 
     def _rows(self, number: int) -> slice:
-        return slice(number * self.chunk, min((number + 1) * self.chunk, self.runs))
+        rows = self.study.rows(number)
+        return slice(rows.start, rows.stop)
 
     def _digest(self, number: int, columns: Mapping[str, Any]) -> int:
         """Sixty-four bits of the SHA-256 of attributes, number and data, never 0."""
@@ -196,19 +187,8 @@ def _restore(target: Path, metadata: bytes) -> None:
 def open_store(path: str | Path, study: Study, program: str, versions: Mapping[str, str]) -> Store:
     """Return the store of `study` at `path` for writing, creating it if there is none. The caller holds its lock.
 
-    Parameters
-    ----------
-    path, study
-        The path, which ends in .zarr; the study.
-    program : str
-        Digest of the program, from `program_digest`.
-    versions : dict
-        Versions of this package and of those on which the results depend.
-
-    Raises
-    ------
-    InputError
-        If the path is not writable, or if the store belongs to another study (naming the first difference).
+    `program` is the digest from `program_digest`, `versions` are those of the packages on which the results depend.
+    Raises InputError if the path is not writable, or if the store is another study's (naming the first difference).
     """
     path = check_path(path)
     attributes: dict[str, Any] = {

@@ -112,6 +112,10 @@ class Study:
         """Number of chunks."""
         return -(-self.runs // self.chunk)
 
+    def rows(self, number: int) -> range:
+        """Return the runs of chunk `number`."""
+        return range(number * self.chunk, min((number + 1) * self.chunk, self.runs))
+
     @property
     def gains(self) -> tuple[str, ...]:
         """Names of the gains that vary."""

@@ -89,15 +89,11 @@ def write_flight(
             for _, task in tasks:
                 task()
         key = (run.law, str(settings.get("experiment", "own start")))
-        lines = [f"# A run of {run.law} on {name_with_changes(run.vehicle)}", "", f"Outcome: {run.outcome}.", ""]
+        parts = [f"# A run of {run.law} on {name_with_changes(run.vehicle)}", f"Outcome: {run.outcome}."]
         if verdicts:
-            lines += [
-                f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}",
-                "",
-                text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)}),
-                "",
-            ]
-        lines += [f"Goal: {text.judgement(run)}.", ""]
+            table = text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)})
+            parts += [f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}", table]
+        parts.append(f"Goal: {text.judgement(run)}.\n")
         content = {"settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
-        text.write_report(folder, "\n".join(lines), {**content, "inverted": vars(metrics(run))})
+        text.write_report(folder, "\n\n".join(parts), {**content, "inverted": vars(metrics(run))})
     return verdicts

@@ -46,21 +46,14 @@ EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
 
 def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | Controller:
-    """Return the law that `value` specifies.
+    """Return the law that `value` specifies: itself, a name, `module:function`, `file.py:function`, or a table.
 
-    Parameters
-    ----------
-    value : str, dict or a law
-        A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}. Gains and
-        reference of "nmpc" are those of the inverted law that it falls back on; it has latency and computing of its
-        own. "nmpc" and "plan" have the fields of `Constraints`: windows as tables of their fields, keep and cost as
-        an expression, `file.py:function` or `module:function`. "plan" has an objective and a target as well.
-    folder : Path, optional
-        Folder to which file paths are relative; default the current one.
-    key : str
-        Field name for error messages.
+    A table has a name or function, gains, reference and e3. Gains and reference of "nmpc" are those of the inverted law
+    that it falls back on; it has latency and computing of its own. "nmpc" and "plan" have the fields of `Constraints`:
+    windows as tables of their fields, keep and cost as an expression, `file.py:function` or `module:function`. "plan"
+    has an objective and a target as well. File paths are relative to `folder`, by default the current one.
 
-    Raises InputError if anything is unknown or out of range, or if a file or module fails to load.
+    Raises InputError, for the field `key`, if anything is unknown or out of range, or a file or module fails to load.
     """
     if isinstance(value, Law | Controller):
         return value

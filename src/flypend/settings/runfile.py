@@ -218,17 +218,15 @@ def _override(settings: dict[str, Any], text: str) -> None:
     keys = [key.strip() for key in path.split(".")]
     if not equals or not all(key and key.isprintable() for key in keys):
         raise InputError("--set", "KEY.KEY=VALUE, such as law.gains.k_d=2", repr(text))
+    if len(keys) > 1:
+        errors.only_known("", keys[:1], KEYS)
+        if keys[0] in ("vehicle", "plant", "law") and isinstance(name := settings.get(keys[0]), str):
+            settings[keys[0]] = table_of(name) if keys[0] == "law" else {"base": name}
     table = settings
-    for depth, key in enumerate(keys[:-1]):
-        if depth == 0:
-            errors.only_known("", [key], KEYS)
-        if key in ("vehicle", "plant") and depth == 0 and isinstance(table.get(key), str):
-            table[key] = {"base": table[key]}
-        if key == "law" and depth == 0 and isinstance(table.get(key), str):
-            table[key] = table_of(table[key])
+    for depth, key in enumerate(keys[:-1], 1):
         table = table.setdefault(key, {})
         if not isinstance(table, dict):
-            raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
+            raise InputError("--set", f"a table at {'.'.join(keys[:depth])}", repr(table))
     try:
         parsed = tomllib.loads(f"value = {value}")
     except ValueError:  # not TOML, or an integer with thousands of digits

@@ -36,21 +36,11 @@ UNITS = {"rod_length": "m to the centre of mass", "bob_mass": "kg", "rotor_limit
 
 @dataclass(frozen=True)
 class Change:
-    """A changed vehicle that was flown.
+    """A changed vehicle that was flown."""
 
-    Parameters
-    ----------
-    factors : dict
-        Factor of each number that was changed, of `CHANGES`.
-    how : str
-        The change in words, with the numbers it leads to.
-    successes, runs : int
-        How many of how many random flights succeed.
-    """
-
-    factors: Mapping[str, float]
-    how: str
-    successes: int
+    factors: Mapping[str, float]  # of each number that was changed, of `CHANGES`
+    how: str  # the change in words, with the numbers it leads to
+    successes: int  # of so many random flights
     runs: int
 
     @property
@@ -65,24 +55,13 @@ class Change:
 
 @dataclass(frozen=True)
 class Advice:
-    """What to fly on a vehicle.
+    """What to fly on a vehicle."""
 
-    Parameters
-    ----------
-    law : str
-        The best of the laws; empty if none flies the vehicle from 90 % of the random starts.
-    why : str
-        What it does beside the others, in a line.
-    changes : tuple of Change
-        Changes of a vehicle that no law flies: the smallest of each kind that works; if no kind does, all at once.
-    as_written : tuple of str
-        Laws that fly the vehicle as written, where none flies vehicles drawn from its bands.
-    """
-
-    law: str
-    why: str
+    law: str  # the best of the laws; empty if none flies the vehicle from 90 % of the random starts
+    why: str  # what it does beside the others, in a line
+    # Changes of a vehicle that no law flies: the smallest of each kind that works; if no kind does, all at once.
     changes: tuple[Change, ...] = ()
-    as_written: tuple[str, ...] = ()
+    as_written: tuple[str, ...] = ()  # laws that fly the vehicle as written, where none flies those of its bands
 
     def lines(self) -> list[str]:
         """Return the law and why, or what to change."""
@@ -100,12 +79,7 @@ class Advice:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and dicts."""
-        return {
-            "law": self.law,
-            "why": self.why,
-            "as_written": self.as_written,
-            "changes": [asdict(one) for one in self.changes],
-        }
+        return asdict(self)
 
 
 def advise(
@@ -119,18 +93,8 @@ def advise(
     """Name the best of checked laws, or find out which change of `vehicle` would do.
 
     The best law succeeds from 90 % of the random starts, of drawn vehicles if those were flown, and is the best of such
-    laws by `best_of`.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        The vehicle of the checks.
-    checks : dict of Check
-        By name of the law.
-    plant, seed
-        As in `check`.
-    progress : callable
-        Called with `(task, done, total)`.
+    laws by `best_of`. The `checks` of the vehicle are keyed by the name of the law; `plant` and `seed` are as in
+    `check`. `progress` is called with (task, done, total).
     """
     flown = {
         law: check.tasks.get("drawn", check.tasks["random"])

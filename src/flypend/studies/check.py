@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from typing import Any
@@ -25,7 +25,7 @@ from flypend.plants import AnyPlant, Sampled
 from flypend.plants.bands import check_bands
 from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import fly_within
-from flypend.studies.compare import summary
+from flypend.studies.compare import Progress, summary
 from flypend.studies.margins import LEAST_RATE, Count, Margin, quantities, search
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
@@ -37,8 +37,6 @@ GRADES = ("all", "most", "some", "none")  # of the starts of a task succeed; mos
 STARTS = 8  # of the random ones, to plan from where a law fails
 MOST, HARDLY_ANY = 0.9, 0.1  # shares of them
 LEAST_DURATION = 10.0  # s, of a flight for a margin, or twice what 95 % need to settle if that is more
-
-Progress = Callable[[str, int, int], Any]
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from itertools import chain, count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -143,7 +144,8 @@ def flights_of(
     for law in several:
         errors.check_kind("law", law, AnyLaw)
         own = starts.in_frame(law.e3)
-        name = _free_name(law.name, flights)
+        names = chain([law.name], (f"{law.name} ({number})" for number in count(2)))
+        name = next(one for one in names if one not in flights)
         flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
         check_judged(flights[name])
     return flights
@@ -195,13 +197,6 @@ def summary(ensemble: Ensemble) -> dict[str, Any]:
         **({"clearance_p5": ensemble.percentile("clearance", 5)} if ensemble.vehicle.mount != "gimbal" else {}),
         "causes": {str(cause): int((failed == cause).sum()) for cause in sorted(set(failed.tolist()))},
     }
-
-
-def _free_name(name: str, taken: Mapping[str, Flight]) -> str:
-    out, count = name, 2
-    while out in taken:
-        out, count = f"{name} ({count})", count + 1
-    return out
 
 
 def files_of_failures(

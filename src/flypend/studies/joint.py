@@ -44,51 +44,27 @@ Progress = Callable[[str, int, int], Any]
 
 @dataclass(frozen=True)
 class Cause:
-    """One of the errors of a laboratory.
+    """One of the errors of a laboratory."""
 
-    Parameters
-    ----------
-    name : str
-        A number of the vehicle's bands, or a field of the plant or its sensors.
-    size : str
-        How large it is where it was turned up alone and off.
-    alone, without : Count
-        Flights with this error alone, and with all the others.
-    """
-
-    name: str
-    size: str
-    alone: Count
-    without: Count
+    name: str  # a number of the vehicle's bands, or a field of the plant or its sensors
+    size: str  # how large it is where it was turned up alone and off
+    alone: Count  # flights with this error alone
+    without: Count  # flights with all the others
 
 
 @dataclass(frozen=True)
 class Joint:
-    """The result of `joint`.
+    """The result of `joint`."""
 
-    Parameters
-    ----------
-    tasks : dict of Count
-        Success of each task, "pokes" among them, under all errors at once.
-    draws : int
-        Vehicles that share the flights of a task.
-    scales : dict of Count
-        Scale of all errors → random starts of the draw in which most fail.
-    causes : tuple of Cause
-        The errors at the largest of these scales, the one that fails first at the beginning. Empty if 90 % succeed at
-        every scale.
-    calibrated : tuple of str
-        Errors that must be smaller for 90 % of those flights to succeed.
-    share, kept : float, Count
-        Of their sizes, the largest share at which that is so, and the flights at it; 0 and those with none of them if
-        no share is small enough.
-    """
-
-    tasks: Mapping[str, Count]
-    draws: int
-    scales: Mapping[float, Count]
+    tasks: Mapping[str, Count]  # success of each task, "pokes" among them, under all errors at once
+    draws: int  # vehicles that share the flights of a task
+    scales: Mapping[float, Count]  # scale of all errors → random starts of the draw in which most fail
+    # The errors at the largest of these scales, the one that fails first at the beginning. Empty if 90 % succeed at
+    # every scale.
     causes: tuple[Cause, ...] = ()
-    calibrated: tuple[str, ...] = ()
+    calibrated: tuple[str, ...] = ()  # errors that must be smaller for 90 % of those flights to succeed
+    # Of their sizes, the largest share at which that is so, and the flights at it; 0 and those with none of them if no
+    # share is small enough.
     share: float = 1.0
     kept: Count | None = None
 
@@ -258,17 +234,10 @@ def joint(
     succeed; there each error is turned up alone, and off from all. What fails first is what success gains most
     without, or of equal ones what it loses most by alone.
 
-    Parameters
-    ----------
-    vehicle, law, plant
-        As in `check`. Bands of the vehicle and defects of the plant's sensors are the sizes of the errors; where
-        there are none, those of `USUAL` and of the plant "laboratory".
-    runs : int, optional
-        Random starts of all draws together; default 384. A variant flies 48, or as many if that is fewer.
-    seed : int
-        Seed of starts and of the vehicles drawn.
-    progress : callable
-        Called with `(task, done, total)`.
+    `vehicle`, `law` and `plant` are as in `check`. Bands of the vehicle and defects of the plant's sensors are the
+    sizes of the errors; where there are none, those of `USUAL` and of the plant "laboratory". All draws together fly
+    `runs` random starts, by default 384; a variant flies 48, or as many if that is fewer. Starts and vehicles are drawn
+    by `seed`. `progress` is called with (task, done, total).
     """
     world = plants.as_sampled(plant)
     bound = bound_to(vehicle, inverted() if law is None else law)

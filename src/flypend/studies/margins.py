@@ -117,30 +117,16 @@ class Margin:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of the world to vary.
+    """A number of the world to vary."""
 
-    Parameters
-    ----------
-    name, unit, nominal
-        As in `Margin`.
-    plant : callable
-        Value → plant in which the world has it.
-    value : callable
-        Signed distance from the nominal value, 0 at it → value.
-    step, most : float
-        First and largest distance.
-    both : bool
-        Whether distances below 0 are searched, too.
-    """
-
-    name: str
+    name: str  # as in `Margin`, like the next two
     unit: str
     nominal: float
-    plant: Callable[[float], Sampled]
-    value: Callable[[float], float]
-    step: float
+    plant: Callable[[float], Sampled]  # value → plant in which the world has it
+    value: Callable[[float], float]  # signed distance from the nominal value → value; the nominal one at 0
+    step: float  # first and largest distance
     most: float
-    both: bool = True
+    both: bool = True  # whether distances below 0 are searched, too
 
 
 def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:

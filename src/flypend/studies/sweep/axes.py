@@ -23,31 +23,15 @@ MOST_POINTS = 100_000
 
 @dataclass(frozen=True)
 class Axis:
-    """One quantity that varies.
+    """One quantity that varies: sampled over a range, or on a grid."""
 
-    Parameters
-    ----------
-    group : "start", "gains" or "plant"
-        What it belongs to.
-    name : str
-        A field of the start or an angle, a gain, or a plant parameter ("mismatch.mass").
-    dimensions : int
-        Dimensions of the sample that it uses; 0 on a grid.
-    low, high : float
-        The range; for a ball or a disc, 0 and the radius.
-    log : bool
-        Whether the range is logarithmic.
-    values : tuple of float
-        Grid points; empty if sampled.
-    """
-
-    group: str
-    name: str
-    dimensions: int
-    low: float = 0.0
+    group: str  # what it belongs to: "start", "gains" or "plant"
+    name: str  # a field of the start or an angle, a gain, or a plant parameter ("mismatch.mass")
+    dimensions: int  # of the sample that it uses; 0 on a grid
+    low: float = 0.0  # the range; for a ball or a disc, 0 and the radius
     high: float = 0.0
-    log: bool = False
-    values: tuple[float, ...] = ()
+    log: bool = False  # whether the range is logarithmic
+    values: tuple[float, ...] = ()  # grid points; empty if sampled
 
     def at(self, u: Any) -> Any:
         """Return the values at the fractions u (n,) of the range."""

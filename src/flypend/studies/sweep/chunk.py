@@ -72,7 +72,20 @@ def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
 
 def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:
     """Return the runs `drawn` as requests, one per stretch of runs on one plant; `first` is the first run's index."""
-    return [_flight(study, drawn, part, first) for part in _by_plant(study, drawn)]
+    number = drawn.cells // study.plant_cells.step  # of the plant; they are outermost in the grid
+    ends = [0, *(np.flatnonzero(np.diff(number)) + 1).tolist(), len(number)]
+    found = []
+    for begin, end in pairwise(ends):
+        plant, part = study.plant_at(int(drawn.cells[begin])), slice(begin, end)
+        seed = plant.seed if isinstance(plant, Sampled) else 0
+        flight = study.flight.replace(
+            starts=State.trusted(drawn.packed[part]),
+            gains={name: value[part] for name, value in drawn.gains.items()},
+            plant=plant,
+            seed=seed + first + begin,  # the noise of a run does not depend on the chunk
+        )
+        found.append(flight)
+    return found
 
 
 def program_digest(study: Study) -> str:
@@ -92,22 +105,3 @@ def program_digest(study: Study) -> str:
             digest.update(plant_numbers(flight.loop).tobytes())
         digest.update(kernel.key.encode())
     return digest.hexdigest()
-
-
-def _by_plant(study: Study, drawn: Design) -> list[slice]:
-    """Stretches of runs on one plant; they are consecutive because plants are outermost in the grid."""
-    plant = drawn.cells // study.plant_cells.step
-    ends = [0, *(np.flatnonzero(np.diff(plant)) + 1).tolist(), len(plant)]
-    return [slice(a, b) for a, b in pairwise(ends)]
-
-
-def _flight(study: Study, drawn: Design, part: slice, first: int) -> Flight:
-    """Return the flights of the `part` of a design whose run number `first` comes first."""
-    plant = study.plant_at(int(drawn.cells[part.start]))
-    seed = plant.seed if isinstance(plant, Sampled) else 0
-    return study.flight.replace(
-        starts=State.trusted(drawn.packed[part]),
-        gains={name: value[part] for name, value in drawn.gains.items()},
-        plant=plant,
-        seed=seed + first + part.start,  # the noise of a run does not depend on the chunk
-    )

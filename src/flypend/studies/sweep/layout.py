@@ -81,15 +81,10 @@ def add_arrays(group: Any, study: Study) -> None:
     for name, field in columns_of(study).items():
         dtype, row = np.dtype(field.dtype), field.dims[1:]
         group.create_array(
-            name,
-            shape=(study.runs, *row),
-            chunks=(min(study.chunk, study.runs), *row),
-            dtype=dtype,
-            compressors=blosc,
-            dimension_names=["run", ROWS[name]] if row else ["run"],
-            attributes=_notes(name),
+            name, shape=(study.runs, *row), chunks=(min(study.chunk, study.runs), *row), dtype=dtype, compressors=blosc,
+            dimension_names=["run", ROWS[name]] if row else ["run"], attributes=_notes(name),
             fill_value=np.nan if dtype.kind == "f" else 0,
-        )
+        )  # fmt: skip
     group.create_array(
         MARKS, shape=(study.chunks,), chunks=(1,), dtype="uint64", compressors=None, dimension_names=["chunk"],
         attributes=_notes(MARKS), fill_value=0,

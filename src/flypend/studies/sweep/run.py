@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing
+from contextlib import ExitStack, closing
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -128,14 +128,13 @@ def _fly_numbers(
     text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
     """Yield number and result of each chunk, in the order in which they end."""
-    if processes:
-        with waiting.processes(workers) as submit:
-            for call in waiting.as_they_come([submit(_fly, text, number, program, None) for number in numbers]):
-                yield call.result()
-    else:
-        with waiting.threads(workers) as pool, interruptible() as stop:
-            for call in waiting.as_they_come([pool.submit(_fly, text, number, program, stop) for number in numbers]):
-                yield call.result()
+    with ExitStack() as stack:
+        if processes:
+            submit, stop = stack.enter_context(waiting.processes(workers)), None
+        else:
+            submit, stop = stack.enter_context(waiting.threads(workers)).submit, stack.enter_context(interruptible())
+        for call in waiting.as_they_come([submit(_fly, text, number, program, stop) for number in numbers]):
+            yield call.result()
 
 
 def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str, Any]]:

@@ -75,22 +75,18 @@ class Store:
     def read(self, number: int, names: list[str] | None = None) -> dict[str, Any]:
         """Return the columns `names` (default all) of chunk `number`. Raises InputError unless it matches its mark."""
         try:
-            columns = {name: self._unpacked(name, number) for name in self.columns}
+            columns = {}
+            for name, array in sorted(self._arrays.items()):
+                layout.check_packed(self.path / name, number, array)
+                columns[name] = array[self._rows(number)]
             sound = self._mark(number) == self._digest(number, columns)
         except Exception:  # undecodable data: Zarr and its codecs raise exceptions of many types
             sound = False
-        if sound:
-            self._checked(columns)
         if not sound:
             wanted = f"chunk {number} as it was written (flypend sweep flies it again)"
             raise InputError(str(self.path), wanted, "a chunk that does not match its digest")
+        self._checked(columns)
         return columns if names is None else {name: columns[name] for name in names}
-
-    def _unpacked(self, name: str, number: int) -> Any:
-        """Return the rows of chunk `number` of the column `name`. Raises what Zarr raises, and ValueError."""
-        array = self._arrays[name]
-        layout.check_packed(self.path / name, number, array)
-        return array[self._rows(number)]
 
     def _checked(self, columns: Mapping[str, Any]) -> None:
         """Raise InputError unless `columns` are as those of a chunk of the study."""
@@ -142,7 +138,11 @@ class Store:
 
     def _check_place(self) -> None:
         """Raise InputError unless the folder at the path is still this store."""
-        if _id_at(self.path) != self.attributes["id"]:
+        try:
+            found = parse_json(read_text(self.path / METADATA))["attributes"]["id"]
+        except (OSError, ValueError, LookupError, TypeError):
+            found = None
+        if found != self.attributes["id"]:
             raise InputError(str(self.path), "the store that this sweep has begun", "nothing, or another one")
 
     def _opened(self, writable: bool) -> dict[str, Any]:
@@ -248,14 +248,6 @@ def _group_at(path: Path) -> Any:
     if group is None or group.attrs.get("flypend") != "sweep":
         raise InputError(str(path), wanted, "nothing" if group is None else "another")
     return group
-
-
-def _id_at(path: Path) -> Any:
-    """The id of the store at `path`; None if there is none."""
-    try:
-        return parse_json(read_text(path / METADATA))["attributes"]["id"]
-    except (OSError, ValueError, LookupError, TypeError):
-        return None
 
 
 def _seal(attributes: Mapping[str, Any]) -> str:

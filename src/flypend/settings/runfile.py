@@ -28,9 +28,8 @@ from flypend.settings.laws import absolute, law_from, law_table, relative, table
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 # Keys that only a study has; a file with none of them is a run file.
-STUDY_KEYS = frozenset(
-    ("runs", "vary", "sampling", "seed", "chunk", "final", "criterion", "tune", "judge_period", "max_steps",
-     "precision")
+STUDY_KEYS = (
+    "judge_period", "precision", "max_steps", "runs", "sampling", "seed", "chunk", "final", "criterion", "vary", "tune",
 )  # fmt: skip
 # Settings that are lists of words; all other lists are of numbers.
 WORDS = ("plant.air", "plant.sensors.adjustable")
@@ -92,7 +91,7 @@ def _read(what: str) -> dict[str, Any]:
         if what.endswith(".nc"):
             raise InputError(what, "a run file (.toml)", f"a saved run: flypend replay {what}")
         settings = read_toml(what)
-        if study := sorted(STUDY_KEYS & settings.keys()):
+        if study := sorted(settings.keys() & STUDY_KEYS):
             told = f"a study (it has {study[0]}): flypend sweep {what} -o {Path(what).stem}.zarr"
             raise InputError(what, "a run file", told)
         if "law" in settings:

@@ -87,11 +87,8 @@ class Joint:
         out.append(f"fails first, errors × {self.scale:g}: {first.name} {first.size}")
         assert self.kept is not None
         sizes = ", ".join(f"{one.name} {one.size}" for one in self.causes if one.name in self.calibrated)
-        told = (
-            f"to × {self.share:g} of {sizes}: {self.kept.describe()}"
-            if self.share
-            else f"{sizes}: {self.kept.describe()} if right"
-        )
+        kept = self.kept.describe()
+        told = f"to × {self.share:g} of {sizes}: {kept}" if self.share else f"{sizes}: {kept} if right"
         return [*out, f"calibrate {told}"]
 
     def to_dict(self) -> dict[str, Any]:

@@ -45,17 +45,25 @@ class Count(NamedTuple):
 
 
 def for_each(
-    flight: Flight, call: Callable[[Item], Found], items: Sequence[Item], progress: Callable[[int, int], Any]
+    flight: Flight,
+    call: Callable[[Item], Found],
+    items: Sequence[Item],
+    progress: Callable[[int, int], Any],
+    stop: Callable[[], Any] = lambda: None,
 ) -> list[Found]:
     """Return what `call`, which flies variants of `flight` by `fly_beside`, returns for each of `items`.
 
-    Of flights with a kernel `SEARCHES` are made at a time. `progress` is called with (done, total).
+    Of flights with a kernel `SEARCHES` are made at a time. `progress` is called with (done, total). At the end, or if
+    anything is raised, `stop` tells calls that go on to return soon: they are waited for.
     """
     found: list[Found] = []
     with threads(SEARCHES if has_kernel(flight) else 1) as pool:
-        for job in [pool.submit(call, item) for item in items]:
-            found.append(result_of(job))
-            progress(len(found), len(items))
+        try:
+            for job in [pool.submit(call, item) for item in items]:
+                found.append(result_of(job))
+                progress(len(found), len(items))
+        finally:
+            stop()
     return found
 
 
@@ -180,10 +188,7 @@ def search(
         progress(f"margin of {sides[done - 1][0].name}", done, total)
 
     progress("margins", 0, len(sides))
-    try:
-        found = for_each(flight, lambda side: _side(flight, *side, stop), sides, tell)
-    finally:
-        stop.set()
+    found = for_each(flight, lambda side: _side(flight, *side, stop), sides, tell, stop.set)
     margins, sides_found = {}, iter(found)
     for quantity in wanted:
         above = next(sides_found)
@@ -208,7 +213,7 @@ class _Side(NamedTuple):
 def _side(flight: Flight, quantity: Quantity, sign: float, stop: Event) -> _Side:
     """Search from the first step out to where success drops, then in between; no further once `stop` is set."""
     counts: dict[float, int] = {}
-    good, bad, distance = 0.0, np.inf, quantity.step
+    good, bad, distance = 0.0, np.inf, min(quantity.step, quantity.most)
     while bad - good > RESOLUTION * good and good < quantity.most and bad > LEAST_STEP * quantity.step:
         if stop.is_set():
             break

@@ -306,7 +306,11 @@ class _Task:
 
     def _flown(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
         """Metrics (k, runs) of `runs` runs under each of k rows of gains `values`, on each world in turn."""
-        flight, worlds = self.study.flight, self._worlds(stream)
+        flight = self.study.flight
+        worlds: list[AnyPlant] = [flight.plant]
+        if self.bands and isinstance(flight.plant, Sampled):  # those of vehicles drawn, others for the report
+            seed = 2 * self.seed + (stream == cube.REPORTED)
+            worlds = list(worlds_within(flight.vehicle, flight.plant, seed, self.bands).values())
         if stream == cube.TUNED:  # its own noise, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
         starts = design(self.study, 0, runs, stream).packed
@@ -317,14 +321,6 @@ class _Task:
             flown = fly_many(flight.replace(starts=packed, gains=gains, plant=world), workers=workers).columns
             found.append({name: column.reshape(len(values), len(own)) for name, column in flown.items()})
         return {name: np.concatenate([one[name] for one in found], axis=1) for name in found[0]}
-
-    def _worlds(self, stream: int) -> list[AnyPlant]:
-        """The study's plant, and with bands those of vehicles drawn, others for the report."""
-        flight = self.study.flight
-        if not self.bands or not isinstance(flight.plant, Sampled):
-            return [flight.plant]
-        seed = 2 * self.seed + (stream == cube.REPORTED)
-        return list(worlds_within(flight.vehicle, flight.plant, seed, self.bands).values())
 
 
 def _limits(made: Study) -> dict[str, tuple[float, float]]:

@@ -27,10 +27,7 @@ from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, record_a
 from flypend.studies.sweep.axes import Axis, axes
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
-KEYS = (
-    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs",
-    "sampling", "seed", "chunk", "final", "criterion", "start", "vary", "tune",
-)  # fmt: skip
+KEYS = ("vehicle", "law", "plant", "duration", "rtol", "start", *STUDY_KEYS)
 # Runs per chunk (ideal plant, sampled plant, MuJoCo, callable law): each takes a few seconds on one core.
 CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
 # A run usually takes a few hundred integrator steps; one that takes this many is chattering.
@@ -156,7 +153,7 @@ def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study
     Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
     settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
-    if not isinstance(what, Mapping) and settings.keys() and not STUDY_KEYS & settings.keys():
+    if not isinstance(what, Mapping) and settings.keys() and not settings.keys() & STUDY_KEYS:
         raise InputError(str(what), "a study (runs, vary, …)", f"a run file, or another: flypend run {what}")
     if "law" in settings and not isinstance(what, Mapping):
         settings["law"] = absolute(settings["law"], Path(what).parent)

@@ -21,6 +21,7 @@ from flypend.plants import PRESETS, SUITES, AnyPlant, Sampled
 from flypend.plants.bands import world_of
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
+from flypend.studies.compare import Progress
 from flypend.studies.margins import LEAST_RATE, Count, count_of, fly_beside, for_each
 from flypend.studies.trial import is_up, knock_on
 
@@ -38,8 +39,6 @@ DURATION = 12.0  # s; three times what 95 % of the random starts need
 # Flights with pokes, and s: one poke in each half of a flight, which leaves time to swing the rod up again.
 POKES, POKE_PERIOD, SAMPLE = 48, 12.0, 0.05
 NOT_YET = 1e-12  # of a poke, so that all flights of a vehicle share a kernel
-
-Progress = Callable[[str, int, int], Any]
 
 
 @dataclass(frozen=True)

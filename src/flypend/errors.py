@@ -41,11 +41,8 @@ def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool 
     except (TypeError, ValueError):
         raise InputError(field, f"numbers of shape {wanted}", repr(value)) from None
     trailing = result.shape[result.ndim - len(shape) :]
-    if (
-        result.ndim < len(shape)
-        or (result.ndim > len(shape) and not batch)
-        or any(n not in (None, m) for n, m in zip(shape, trailing, strict=True))
-    ):
+    fits = result.ndim == len(shape) or (batch and result.ndim > len(shape))
+    if not fits or any(n not in (None, m) for n, m in zip(shape, trailing, strict=True)):
         raise InputError(field, f"numbers of shape {wanted}", f"shape {result.shape}")
     if not np.all(np.isfinite(result)):
         raise InputError(field, "finite numbers", f"{np.count_nonzero(~np.isfinite(result))} that are NaN or infinite")
@@ -115,18 +112,14 @@ def named_arguments(target: F) -> F:
     them.
     """
     if not isinstance(target, type):
-        return cast("F", _check_calls(target, target.__name__, target, bound=_bound(target)))
+        bound = cast("Any", target).__code__.co_varnames[:1] == ("cls",)  # a class method's first is not the caller's
+        return cast("F", _check_calls(target, target.__name__, target, bound=int(bound)))
     for name, member in list(vars(target).items()):
         if name == "__init__":
             setattr(target, name, _check_calls(member, target.__name__, target, bound=1))
         elif inspect.isfunction(member) and not name.startswith("_"):
             setattr(target, name, _check_calls(member, name, member, bound=1, before=False))
     return target
-
-
-def _bound(function: Any) -> int:
-    """Return how many of the first arguments of `function` are not the caller's: that of a class method."""
-    return int(function.__code__.co_varnames[:1] == ("cls",))
 
 
 def _check_calls(function: Any, name: str, documented: Any, bound: int = 0, before: bool = True) -> Any:
@@ -336,10 +329,8 @@ def install_command(extra: str) -> str:
     gone or unknown, the command names the packages of the extra that are missing.
     """
     import json  # what only a missing extra needs is imported here: every command imports this module
-    import re
     import shlex
     from importlib import metadata
-    from pathlib import Path
     from urllib.parse import urlsplit
     from urllib.request import url2pathname
 

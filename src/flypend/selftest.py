@@ -41,13 +41,8 @@ def expect(holds: Any, what: str) -> None:
 
 def call(*arguments: str) -> None:
     """Run a command of flypend in a process of its own. Raises FailedError unless it succeeds."""
-    done = subprocess.run(  # noqa: S603 (our own words)
-        [sys.executable, "-m", "flypend", *arguments],
-        capture_output=True,
-        encoding="utf-8",
-        errors="replace",
-        check=False,
-    )
+    words = [sys.executable, "-m", "flypend", *arguments]
+    done = subprocess.run(words, capture_output=True, encoding="utf-8", errors="replace", check=False)  # noqa: S603
     expect(done.returncode == 0, f"flypend {' '.join(arguments)}: code {done.returncode}, {done.stderr.strip()[-300:]}")
 
 

@@ -7,7 +7,7 @@ import pytest
 
 import flypend as fp
 from flypend import plants
-from flypend.files import memory
+from flypend.files import reading
 from flypend.flight.ensemble import fly_many
 from flypend.flight.request import Flight, Tolerances
 from flypend.flight.simulate import fly
@@ -349,7 +349,7 @@ def test_a_vehicle_that_cannot_lift_itself_is_told_so_at_once(change):
 
 
 def test_results_beyond_the_memory_are_refused_with_what_they_need(monkeypatch):
-    monkeypatch.setattr(memory, "free_memory", lambda: 1e9)
+    monkeypatch.setattr(reading, "free_memory", lambda: 1e9)
     with pytest.raises(
         fp.InputError, match=r"duration: .* fits the 1 GB of free memory, got 1000001 samples, .* 2 GB$"
     ):
@@ -368,7 +368,7 @@ def test_results_beyond_the_memory_are_refused_with_what_they_need(monkeypatch):
 
 
 def test_the_free_memory_is_a_number_of_bytes():
-    assert 1e7 < memory.free_memory() < 1e14
+    assert 1e7 < reading.free_memory() < 1e14
 
 
 def test_results_fit_a_screen():

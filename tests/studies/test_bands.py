@@ -9,7 +9,7 @@ from flypend.flight.request import Flight
 from flypend.plants import Sampled
 from flypend.settings.runfile import plant_of
 from flypend.studies.bands import fly_within, worlds_within
-from flypend.studies.failed import files_of_failures
+from flypend.studies.compare import files_of_failures
 
 MINE = fp.Vehicle.estimate(
     mass=0.62, arm=0.17, propeller="8x4.5", motor="920 KV", battery="3S", rod_length=0.9, rod_mass=0.03, bob_mass=0.04

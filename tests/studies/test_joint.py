@@ -10,8 +10,9 @@ from flypend.plants import ROTORS, SUITES
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.report.check import joint_lines
 from flypend.studies import joint as joints
-from flypend.studies.joint import Count, Errors, Joint, joint
+from flypend.studies.joint import Errors, Joint, joint
 from flypend.studies.ladder import DEFECTS, rung_named, sensor_rungs
+from flypend.studies.margins import Count
 
 HEHN = fp.vehicle("hehn2011")
 

@@ -1,5 +1,6 @@
 """The search of margins finds where success drops, on worlds whose margins are known, and on the real one."""
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from flypend.flight.request import Flight
 from flypend.flight.tasks import task_starts
 from flypend.plants import MOTION_CAPTURE, ROTORS
 from flypend.studies import margins
-from flypend.studies.margins import RESOLUTION, quantities, search
+from flypend.studies.margins import RESOLUTION, Count, Quantity, quantities, search
 
 HEHN = fp.vehicle("hehn2011")
 INVERTED = fp.laws.inverted().bind(HEHN)
@@ -26,9 +27,9 @@ def known(monkeypatch):
     def let(inside):
         def succeed(flight):
             flown.append(flight.plant)
-            return RUNS if inside(flight.plant) else RUNS // 2
+            return Count(RUNS if inside(flight.plant) else RUNS // 2, RUNS)
 
-        monkeypatch.setattr(margins, "_succeed", succeed)
+        monkeypatch.setattr(margins, "count_of", succeed)
         return flown
 
     return let
@@ -60,6 +61,36 @@ def test_a_world_that_fails_at_once_has_no_margin(known):
     known(lambda plant: plant.noise is None)
     (noise,) = (m for m in search(FLIGHT, quantities(HEHN, ROTORS)).values() if m.name == "noise")
     assert (noise.high, noise.nominal, noise.successes[0]) == (0.0, 0.0, RUNS)
+
+
+def test_a_margin_that_ends_before_its_first_step_is_searched_to_its_end(known):
+    plant = ROTORS.replace(delay=0.49)
+    flown = known(lambda plant: True)
+    (delay,) = search(replace(FLIGHT, plant=plant), quantities(HEHN, plant)[:1]).values()
+    assert (delay.high, delay.open_high) == (pytest.approx(500.0), True)
+    assert len(flown) == 2
+
+
+def test_a_search_that_is_broken_off_ends_those_under_way(monkeypatch):
+    flown = []
+
+    def succeed(flight):
+        flown.append(flight)
+        time.sleep(0.002)
+        return Count(RUNS, RUNS)
+
+    def tell(_name, done, _total):
+        if done:
+            raise RuntimeError
+
+    monkeypatch.setattr(margins, "count_of", succeed)
+    short, endless = (
+        Quantity(name, "", 0.0, lambda _: ROTORS, float, 1.0, most, both=False)
+        for name, most in (("short", 1.0), ("endless", np.inf))
+    )
+    with pytest.raises(RuntimeError):
+        search(FLIGHT, [short, endless], tell)
+    assert len(flown) < 500  # of a thousand, until a distance that doubles is infinite
 
 
 def test_quantities_start_from_the_plant_and_leave_the_rest_of_it_alone():

@@ -159,6 +159,12 @@ def test_a_sample_of_nothing_and_a_hypercube_too_large_are_refused():
     fixed["plant"] = "ideal"
     assert refused(fixed | {"runs": 5}) == "runs: expected 1, since nothing is drawn, got 5"
     assert fp.study(fixed).runs == 1
+    steady = {"base": "rotors", "wind": {"on_vehicle": [0.1, 0.0, 0.0]}}
+    assert refused(fixed | {"plant": steady, "runs": 5}) == "runs: expected 1, since nothing is drawn, got 5"
+    gusts = {"vary": {"plant": {"wind": {"gust_on_vehicle": {"values": [0.0, 0.1]}}}}, "plant": steady}
+    assert fp.study(fixed | gusts | {"runs": 5}).runs == 10
+    noise = {"vary": {"plant": {"noise": {"x": {"values": [0.01]}}}}, "plant": "rotors"}
+    assert fp.study(fixed | noise | {"runs": 5}).runs == 5
     vary = {"vary": {"start": {"R": "uniform"}}, "runs": 10_000_000}
     assert refused(fixed | vary | {"sampling": "latin"}).startswith("runs: expected at most 6666666 in 3 dimensions")
     assert fp.study(fixed | vary | {"sampling": "sobol"}).chunks == 306

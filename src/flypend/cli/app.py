@@ -287,7 +287,7 @@ def compare(
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.settings.runfile import plant_of
     from flypend.studies import compare as fly
-    from flypend.studies.failed import files_of_failures, fly_again
+    from flypend.studies.compare import files_of_failures, fly_again
 
     asked, duration = plant_asked(plant, sensors, floor), chosen.duration
     world = plant_of(asked)

@@ -22,17 +22,7 @@ from flypend.files.whole import whole_file
 # Bytes of a file, and of its arrays unpacked. A checkpoint of the largest network has 0.4 MB.
 MOST_BYTES = 2**24
 # What a file that is cut short, changed or something else makes the libraries that unpack it raise.
-_UNREADABLE = (
-    OSError,
-    EOFError,
-    BadZipFile,
-    zlib.error,
-    KeyError,
-    NotImplementedError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-)
+_UNREADABLE = (OSError, EOFError, BadZipFile, zlib.error, KeyError, RuntimeError, TypeError, ValueError)
 # The header of an array, as NumPy writes it; NumPy itself evaluates it as Python.
 _HEADER = re.compile(
     rb"\x93NUMPY\x01\x00..\{'descr': '([<>|][biufU]\d+)', 'fortran_order': (False|True), "

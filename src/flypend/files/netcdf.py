@@ -8,14 +8,15 @@ dimensions are not supported, except that the writer stores an array of length 0
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from flypend.files.reading import read_bytes
 
+T = TypeVar("T")
 DIMENSIONS, VARIABLES, ATTRIBUTES = 10, 11, 12
 CHARACTERS, DOUBLES = 2, 6
 KINDS = {1: ">i1", CHARACTERS: "S1", 3: ">i2", 4: ">i4", 5: ">f4", DOUBLES: ">f8"}
@@ -101,15 +102,9 @@ def _pad(content: bytes) -> bytes:
 def read_netcdf(path: Path) -> tuple[dict[str, Variable], dict[str, Any]]:
     """Read the variables of the file at `path`, strings as arrays of single characters, and its global attributes.
 
-    Raises
-    ------
-    OSError
-        If the file cannot be read.
-    InputError
-        If it is larger than `MOST_BYTES` or the free memory.
-    ValueError
-        If it is not NetCDF in the classic format, is truncated, has records, names anything twice, or lets two
-        variables share bytes: what is read takes no more memory than the file, but for the type of its numbers.
+    Raises OSError if it cannot be read, InputError if it is larger than `MOST_BYTES` or the free memory, and ValueError
+    if it is not NetCDF in the classic format, is truncated, has records, names anything twice, or lets two variables
+    share bytes: what is read takes no more memory than the file, but for the type of its numbers.
     """
     return _Reader(memoryview(read_bytes(path, MOST_BYTES, COPIES))).file()
 
@@ -117,7 +112,6 @@ def read_netcdf(path: Path) -> tuple[dict[str, Variable], dict[str, Any]]:
 class _Entry(NamedTuple):
     """A variable as the header describes it; its data are the bytes from `begin` to `end`."""
 
-    name: str
     dims: tuple[str, ...]
     shape: tuple[int, ...]
     attributes: dict[str, Any]
@@ -140,34 +134,46 @@ class _Reader:
     def file(self) -> tuple[dict[str, Variable], dict[str, Any]]:
         if self._int():
             raise ValueError("files with records are not supported")
-        dimensions = [(self._text(), self._int()) for _ in self._entries(DIMENSIONS)]
-        _once(name for name, _ in dimensions)
-        attributes = self._attributes()
-        entries = [self._entry(dimensions) for _ in self._entries(VARIABLES)]
-        _once(entry.name for entry in entries)
+        dimensions = list(self._named(DIMENSIONS, lambda _: self._int()).items())
+        attributes = self._named(ATTRIBUTES, self._attribute)
+        entries = self._named(VARIABLES, lambda name: self._entry(name, dimensions))
         self._check_apart(entries)
-        return {entry.name: self._variable(entry) for entry in entries}, attributes
+        return {name: self._variable(entry) for name, entry in entries.items()}, attributes
 
-    def _entry(self, dimensions: list[tuple[str, int]]) -> _Entry:
-        name = self._text()
+    def _named(self, tag: int, read: Callable[[str], T]) -> dict[str, T]:
+        """Return what `read` returns for the name of each entry of a list. Raises ValueError for a name twice."""
+        kind, count = self._int(), self._int()
+        if kind != tag and (kind or count):
+            raise ValueError("corrupt header")
+        self._left -= count
+        if self._left < 0:
+            raise ValueError(f"a header of more than {MOST_ENTRIES} entries")
+        found: dict[str, T] = {}
+        for _ in range(count):
+            if (name := self._text()) in found:
+                raise ValueError("corrupt header (a name that is there twice)")
+            found[name] = read(name)
+        return found
+
+    def _entry(self, name: str, dimensions: list[tuple[str, int]]) -> _Entry:
         numbers = [self._int() for _ in range(min(self._int(), MOST_DIMENSIONS + 1))]
         if len(numbers) > MOST_DIMENSIONS or any(number >= len(dimensions) for number in numbers):
             raise ValueError(f"corrupt header (dimensions of {name})")
-        about, dtype = self._attributes(), self._dtype()
+        about, dtype = self._named(ATTRIBUTES, self._attribute), self._dtype()
         self._int()  # size in bytes, implied by the shape
         begin = int.from_bytes(self._take(self._offset))
+        dims = tuple(dimensions[number][0] for number in numbers)
         shape = tuple(dimensions[number][1] for number in numbers)
-        end = begin + math.prod(shape) * dtype.itemsize
-        return _Entry(name, tuple(dimensions[number][0] for number in numbers), shape, about, dtype, begin, end)
+        return _Entry(dims, shape, about, dtype, begin, begin + math.prod(shape) * dtype.itemsize)
 
-    def _check_apart(self, entries: list[_Entry]) -> None:
+    def _check_apart(self, entries: Mapping[str, _Entry]) -> None:
         """Raise ValueError unless the data of all variables lie behind the header, inside the file, and apart."""
         before = self._at
-        for entry in sorted(entries, key=lambda entry: entry.begin):
+        for name, entry in sorted(entries.items(), key=lambda item: item[1].begin):
             if entry.end > len(self._content):
-                raise ValueError(f"a file that is cut off (inside {entry.name})")
+                raise ValueError(f"a file that is cut off (inside {name})")
             if entry.end > entry.begin < before:
-                raise ValueError(f"corrupt header ({entry.name} shares bytes)")
+                raise ValueError(f"corrupt header ({name} shares bytes)")
             before = max(before, entry.end)
 
     def _variable(self, entry: _Entry) -> Variable:
@@ -175,34 +181,20 @@ class _Reader:
         values = np.frombuffer(data, entry.dtype).reshape(entry.shape).astype(entry.dtype.newbyteorder("="))
         return Variable(entry.dims, values, entry.attributes)
 
-    def _attributes(self) -> dict[str, Any]:
-        pairs = [self._attribute() for _ in self._entries(ATTRIBUTES)]
-        _once(name for name, _ in pairs)
-        return dict(pairs)
-
-    def _attribute(self) -> tuple[str, Any]:
-        name, dtype, count = self._text(), self._dtype(), self._int()
+    def _attribute(self, _name: str) -> Any:
+        dtype, count = self._dtype(), self._int()
         content = self._take(count * dtype.itemsize)
         self._take(-len(content) % 4)
         if dtype.kind == "S":
-            return name, content.decode().rstrip("\0")  # SciPy writes "" as "\0"
+            return content.decode().rstrip("\0")  # SciPy writes "" as "\0"
         values = np.frombuffer(content, dtype)
-        return name, values[0] if count == 1 else values
+        return values[0] if count == 1 else values
 
     def _dtype(self) -> np.dtype[Any]:
         kind = self._int()
         if kind not in KINDS:
             raise ValueError(f"unknown data type ({kind})")
         return np.dtype(KINDS[kind])
-
-    def _entries(self, tag: int) -> range:
-        found, count = self._int(), self._int()
-        if found != tag and (found or count):
-            raise ValueError("corrupt header")
-        self._left -= count
-        if self._left < 0:
-            raise ValueError(f"a header of more than {MOST_ENTRIES} entries")
-        return range(count)
 
     def _text(self) -> str:
         length = self._int()
@@ -219,10 +211,3 @@ class _Reader:
             raise ValueError("a file that is cut off (inside its header)")
         self._at += count
         return content
-
-
-def _once(names: Iterable[str]) -> None:
-    """Raise ValueError if one of the `names` comes twice."""
-    found = list(names)
-    if len(set(found)) != len(found):
-        raise ValueError("corrupt header (a name that is there twice)")

@@ -22,27 +22,13 @@ from flypend.files.netcdf import Variable
 
 
 class Field(NamedTuple):
-    """An array of a file.
+    """An array of a file."""
 
-    Parameters
-    ----------
-    dims : tuple of str and int
-        Names of its axes, of which those of one name have one length; or their lengths.
-    dtype : str
-        Its type in memory, of NumPy. A file may hold another that converts to it without loss.
-    unit : str
-        Its unit.
-    finite : bool
-        Whether all numbers are finite; if not, they may be NaN and infinite.
-    low, high : float
-        Bounds of its numbers.
-    """
-
-    dims: tuple[str | int, ...]
-    dtype: str = "<f8"
+    dims: tuple[str | int, ...]  # names of its axes, of which those of one name have one length; or their lengths
+    dtype: str = "<f8"  # in memory, of NumPy; a file may hold another that converts to it without loss
     unit: str = ""
-    finite: bool = True
-    low: float = -math.inf
+    finite: bool = True  # whether all numbers are finite; if not, they may be NaN and infinite
+    low: float = -math.inf  # bounds of its numbers
     high: float = math.inf
 
 

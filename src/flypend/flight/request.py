@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from flypend import errors, plants
 from flypend.compile.methods import NAMES as METHODS
 from flypend.errors import InputError
-from flypend.files.memory import check_fits
+from flypend.files.reading import check_fits
 from flypend.flight.criterion import Criterion
 from flypend.geometry import norm
 from flypend.laws import AnyLaw, BoundLaw, Controller

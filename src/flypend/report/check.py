@@ -10,9 +10,10 @@ import numpy as np
 from rich.table import Table
 
 from flypend.files.staging import staging
+from flypend.files.whole import save_both
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
-from flypend.report.text import markdown_table, number, terminal_table, write_report
+from flypend.report.text import bullets, markdown_table, number, terminal_table, told, write_report
 from flypend.studies.advice import Advice
 from flypend.studies.check import Check
 from flypend.studies.joint import Joint
@@ -95,8 +96,6 @@ def write_check(
     `checks`, `trials` and `joints` are keyed by law; `advice` is what follows from them. Without `figures`, or if
     nothing was flown, there is no picture.
     """
-    from flypend.files.whole import save_both
-
     with staging(out) as folder:
         content = {
             "settings": dict(settings),
@@ -120,16 +119,15 @@ def _markdown(
     advice: Advice | None,
 ) -> str:
     """Return the report as Markdown."""
-    set_to = "; ".join(f"{name}: {value}" for name, value in settings.items())
-    parts = ["# Check", f"{set_to}.", "\n".join(f"- {line.strip()}" for line in verdicts(checks))]
+    parts = ["# Check", told(settings), bullets(verdicts(checks))]
     if cells := task_cells(checks):
-        told = {**TASKS, "drawn": "as random, with vehicles drawn from the bands of this one"}
+        tasks = {**TASKS, "drawn": "as random, with vehicles drawn from the bands of this one"}
         flown = {name for check in checks.values() for name in check.tasks}
-        meaning = "\n".join(f"- {name}: {words}" for name, words in told.items() if name in flown)
+        meaning = bullets(f"{name}: {words}" for name, words in tasks.items() if name in flown)
         parts += [markdown_table([list(COLUMNS), *cells]), meaning, markdown_table(margin_cells(checks))]
     parts += [markdown_table(trial_cells(trials))] if trials else []
-    parts += ["\n".join(f"- {line.strip()}" for line in joint_lines(joints))] if joints else []
-    parts += ["\n".join(f"- {line.strip()}" for line in advice.lines())] if advice else []
+    parts += [bullets(joint_lines(joints))] if joints else []
+    parts += [bullets(advice.lines())] if advice else []
     return "\n\n".join(parts) + "\n"
 
 

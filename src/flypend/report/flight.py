@@ -30,15 +30,11 @@ def figure_tasks(
     """Return named tasks that draw the figures of `run` in `style` into `folder`; `prefix` starts each file name."""
     from flypend.pictures import figures  # imports matplotlib, which is slow and not needed without figures
 
-    kinds: list[tuple[str, Callable[..., Any]]] = [
-        ("y3-z3", figures.paper_figure),
-        ("full", figures.full_figure),
-    ]
+    kinds: dict[str, Callable[..., Any]] = {"y3-z3": figures.paper_figure, "full": figures.full_figure}
     if stop_motion:
-        kinds.append(("stop-motion", figures.stop_motion))
-    return [
-        (f"{prefix}{kind}", partial(draw, figure, run, folder / f"{prefix}{kind}", style)) for kind, figure in kinds
-    ]
+        kinds["stop-motion"] = figures.stop_motion
+    named = {f"{prefix}{kind}": figure for kind, figure in kinds.items()}
+    return [(name, partial(draw, figure, run, folder / name, style)) for name, figure in named.items()]
 
 
 def check_movies() -> None:
@@ -50,12 +46,10 @@ def movie_tasks(run: Trajectory, folder: Path, prefix: str = "") -> list[tuple[s
     """Return named tasks that write the movies of `run`, from the side and along e₃, into `folder`."""
     from flypend.pictures.animate import movie
 
+    named = {f"{prefix}movie-{view}": view for view in VIEWS}
     return [
-        (
-            f"{prefix}movie-{view}",
-            partial(movie, run, folder / f"{prefix}movie-{view}.mp4", view=view, speed=MOVIE_SPEED),
-        )
-        for view in VIEWS
+        (name, partial(movie, run, folder / f"{name}.mp4", view=view, speed=MOVIE_SPEED))
+        for name, view in named.items()
     ]
 
 
@@ -95,15 +89,11 @@ def write_flight(
             for _, task in tasks:
                 task()
         key = (run.law, str(settings.get("experiment", "own start")))
-        lines = [f"# A run of {run.law} on {name_with_changes(run.vehicle)}", "", f"Outcome: {run.outcome}.", ""]
+        parts = [f"# A run of {run.law} on {name_with_changes(run.vehicle)}", f"Outcome: {run.outcome}."]
         if verdicts:
-            lines += [
-                f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}",
-                "",
-                text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)}),
-                "",
-            ]
-        lines += [f"Goal: {text.judgement(run)}.", ""]
+            table = text.verdicts_markdown({key: verdicts}, {key: str(run.outcome)})
+            parts += [f"## Claims of {THEOREMS.get(run.law, 'Theorem 1')}", table]
+        parts.append(f"Goal: {text.judgement(run)}.\n")
         content = {"settings": settings, "outcome": vars(run.outcome), "claims": verdicts}
-        text.write_report(folder, "\n".join(lines), {**content, "inverted": vars(metrics(run))})
+        text.write_report(folder, "\n\n".join(parts), {**content, "inverted": vars(metrics(run))})
     return verdicts

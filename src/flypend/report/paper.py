@@ -21,35 +21,23 @@ from flypend.paper.proved import fly_repaired, theorem_a_claims
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks
+from flypend.report.text import Column
 from flypend.signals.waiting import processes, result_of
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")
-Column = tuple[str, str]
 Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
 class Reproduction:
-    """Result of a reproduction.
+    """Result of a reproduction; verdicts and ends are keyed by (law, experiment)."""
 
-    Parameters
-    ----------
-    verdicts, ends : dict
-        Verdicts on the claims, and how each run ended, by (law, experiment).
-    findings : list of Finding
-        The defects of the paper.
-    swing_up : Trajectory
-        One flight under the inverted law from hanging at rest, with rotor limits and lag.
-    repaired : dict
-        Verdicts on Theorem A, the repaired theorem, by (law, experiment).
-    """
-
-    verdicts: dict[Column, list[Verdict]]
-    ends: dict[Column, str]
-    findings: list[Finding]
-    swing_up: Trajectory
-    repaired: dict[Column, list[Verdict]]
+    verdicts: dict[Column, list[Verdict]]  # on the claims
+    ends: dict[Column, str]  # how each run ended
+    findings: list[Finding]  # the defects of the paper
+    swing_up: Trajectory  # under the inverted law from hanging at rest, with rotor limits and lag
+    repaired: dict[Column, list[Verdict]]  # on Theorem A, the repaired theorem
 
 
 def reproduce(

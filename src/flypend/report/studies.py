@@ -10,7 +10,8 @@ from typing import Any
 from rich.table import Table
 
 from flypend.files.staging import staging
-from flypend.report.text import markdown_table, terminal_table, write_report
+from flypend.files.whole import save_both
+from flypend.report.text import bullets, markdown_table, terminal_table, told, write_report
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
@@ -57,11 +58,10 @@ def write_comparison(
 
     `failed`, the run files of failed flights by name, go into the folder `failed` inside it.
     """
-    from flypend.files.whole import save_both
     from flypend.pictures.studies import comparison_figure
 
     with staging(out) as folder:
-        text = f"# Laws compared\n\n{_describe(settings)}\n\n{comparison_markdown(comparison)}\n"
+        text = f"# Laws compared\n\n{told(settings)}\n\n{comparison_markdown(comparison)}\n"
         write_report(folder, text, {"settings": settings, "laws": comparison.rows()})
         save_both(comparison_figure(comparison), folder / "comparison")
         for name, run in (failed or {}).items():
@@ -73,10 +73,8 @@ def ladder_rows(ladder: Ladder) -> list[list[str]]:
     """Return the cells of the ladder, one row per rung: success and excursion of each law."""
     rows = []
     for rung, comparison in ladder.rungs.items():
-        cells = []
-        for ensemble in comparison.ensembles.values():
-            cells.append(f"{100 * ensemble.rate:.1f} %, {short(ensemble.percentile('excursion', 95))} m")
-        rows.append([rung, *cells])
+        flown = comparison.ensembles.values()
+        rows.append([rung, *(f"{100 * e.rate:.1f} %, {short(e.percentile('excursion', 95))} m" for e in flown)])
     return rows
 
 
@@ -90,15 +88,14 @@ def ladder_table(ladder: Ladder) -> Table:
 
 def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> None:
     """Write report.md, report.json (with `settings`), ladder.pdf and .png of `ladder` into the folder `out`."""
-    from flypend.files.whole import save_both
     from flypend.pictures.studies import ladder_figure
 
     laws = list(next(iter(ladder.rungs.values())).ensembles)
     table = markdown_table([["rung", *laws], *ladder_rows(ladder)])
-    broken = "\n".join(f"- {law}: {_broken(ladder, law)}" for law in laws)
-    failures = "\n".join(_failures(ladder)) or "none"
+    broken = bullets(f"{law}: {_broken(ladder, law)}" for law in laws)
+    failures = bullets(_failures(ladder)) or "none"
     with staging(out) as folder:
-        text = f"# Reality ladder\n\n{_describe(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
+        text = f"# Reality ladder\n\n{told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
         text += f"\nFailures by cause (the quantity out of tolerance during the last second):\n\n{failures}\n"
         content = {
             rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}
@@ -114,8 +111,8 @@ def _failures(ladder: Ladder) -> list[str]:
     for rung, comparison in ladder.rungs.items():
         for law, ensemble in comparison.ensembles.items():
             causes = summary(ensemble)["causes"]
-            told = ", ".join(f"{cause} {count}" for cause, count in causes.items())
-            lines += [f"- {rung}, {law}: {told} (of {len(ensemble)})"] if causes else []
+            counts = ", ".join(f"{cause} {count}" for cause, count in causes.items())
+            lines += [f"{rung}, {law}: {counts} (of {len(ensemble)})"] if causes else []
     return lines
 
 
@@ -127,7 +124,3 @@ def _broken(ladder: Ladder, law: str) -> str:
 def short(value: float) -> str:
     """Format to three digits, without an exponent from 1000 up; NaN, the quantile of no runs, becomes a dash."""
     return "-" if math.isnan(value) else f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
-
-
-def _describe(settings: dict[str, Any]) -> str:
-    return "; ".join(f"{name}: {value}" for name, value in settings.items()) + "."

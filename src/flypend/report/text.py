@@ -158,6 +158,16 @@ def _generic(measured: str) -> str:
     return measured.split(" at ")[0]
 
 
+def told(settings: Mapping[str, Any]) -> str:
+    """Return `settings` as a sentence."""
+    return "; ".join(f"{name}: {value}" for name, value in settings.items()) + "."
+
+
+def bullets(lines: Iterable[str]) -> str:
+    """Return `lines` as a Markdown list."""
+    return "\n".join(f"- {line.strip()}" for line in lines)
+
+
 def markdown_table(rows: Sequence[Sequence[str]]) -> str:
     """Return `rows` of cells, the first of them the header, as a Markdown table. A cell may hold any text."""
     plain = [[" ".join(cell.replace("|", "\\|").split()) for cell in row] for row in rows]

@@ -42,12 +42,8 @@ class Expression:
     """The expression `text` as a function of a `Motion`, the fields of which are its names.
 
     Several, with commas between them, are as many values. A comparison is what has to be ≥ 0 for it to hold. Indices
-    count from 0. Messages begin with `key`; if not `compares`, there are no comparisons.
-
-    Raises
-    ------
-    InputError
-        If it is no expression, or one that cannot be evaluated.
+    count from 0. Messages begin with `key`; if not `compares`, there are no comparisons. Raises InputError if it is no
+    expression, or one that cannot be evaluated.
     """
 
     text: str

@@ -6,7 +6,7 @@ import importlib
 import os
 import sys
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from pathlib import Path
 from threading import RLock
@@ -46,24 +46,14 @@ EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
 
 def law_from(value: Any, folder: Path | None = None, key: str = "law") -> Law | Controller:
-    """Return the law that `value` specifies.
+    """Return the law that `value` specifies: itself, a name, `module:function`, `file.py:function`, or a table.
 
-    Parameters
-    ----------
-    value : str, dict or a law
-        A name, `module:function`, `file.py:function`, or a table {name or function, gains, reference, e3}. Gains and
-        reference of "nmpc" are those of the inverted law that it falls back on; it has latency and computing of its
-        own. "nmpc" and "plan" have the fields of `Constraints`: windows as tables of their fields, keep and cost as
-        an expression, `file.py:function` or `module:function`. "plan" has an objective and a target as well.
-    folder : Path, optional
-        Folder to which file paths are relative; default the current one.
-    key : str
-        Field name for error messages.
+    A table has a name or function, gains, reference and e3. Gains and reference of "nmpc" are those of the inverted law
+    that it falls back on; it has latency and computing of its own. "nmpc" and "plan" have the fields of `Constraints`:
+    windows as tables of their fields, keep and cost as an expression, `file.py:function` or `module:function`. "plan"
+    has an objective and a target as well. File paths are relative to `folder`, by default the current one.
 
-    Raises
-    ------
-    InputError
-        If anything is unknown or out of range, or if a file or module fails to load.
+    Raises InputError, for the field `key`, if anything is unknown or out of range, or a file or module fails to load.
     """
     if isinstance(value, Law | Controller):
         return value
@@ -153,10 +143,7 @@ def own_from(value: Any, folder: Path | None, name: str, key: str) -> Any:
 
 def absolute(value: Any, folder: Path) -> Any:
     """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
-    if isinstance(value, Mapping):
-        return {**value, **{name: absolute(value[name], folder) for name in PLACES if name in value}}
-    file, attribute = _split(value) if isinstance(value, str) else ("", "")
-    return f"{(folder / file).resolve()}{attribute}" if file else value
+    return _moved(value, lambda file: str((folder / file).resolve()))
 
 
 def relative(value: Any, folder: Path) -> Any:
@@ -164,15 +151,22 @@ def relative(value: Any, folder: Path) -> Any:
 
     A path on another drive stays absolute.
     """
+
+    def moved(file: str) -> str:
+        try:
+            return Path(os.path.relpath(file, folder.resolve())).as_posix()
+        except ValueError:
+            return file
+
+    return _moved(value, moved)
+
+
+def _moved(value: Any, move: Callable[[str], str]) -> Any:
+    """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):
-        return {**value, **{name: relative(value[name], folder) for name in PLACES if name in value}}
-    file, attribute = _split(value)
-    if not file:
-        return value
-    try:
-        return f"{Path(os.path.relpath(file, folder.resolve())).as_posix()}{attribute}"
-    except ValueError:
-        return value
+        return {**value, **{name: _moved(value[name], move) for name in PLACES if name in value}}
+    file, attribute = _split(value) if isinstance(value, str) else ("", "")
+    return f"{move(file)}{attribute}" if file else value
 
 
 def _is_place(name: str) -> bool:

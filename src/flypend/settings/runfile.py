@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -27,14 +28,13 @@ from flypend.settings.laws import absolute, law_from, law_table, relative, table
 
 KEYS = ("vehicle", "law", "start", "duration", "plant", "rtol", "experiment", "controller")
 # Keys that only a study has; a file with none of them is a run file.
-STUDY_KEYS = frozenset(
-    ("runs", "vary", "sampling", "seed", "chunk", "final", "criterion", "tune", "judge_period", "max_steps",
-     "precision")
+STUDY_KEYS = (
+    "judge_period", "precision", "max_steps", "runs", "sampling", "seed", "chunk", "final", "criterion", "vary", "tune",
 )  # fmt: skip
 # Settings that are lists of words; all other lists are of numbers.
 WORDS = ("plant.air", "plant.sensors.adjustable")
 TABLES = ("law.window",)
-_TOO_DEEP = InputError("run", "settings nested a few levels deep", "hundreds of levels")
+Record = TypeVar("Record")
 
 
 class RunFile(NamedTuple):
@@ -44,6 +44,16 @@ class RunFile(NamedTuple):
     settings: dict[str, Any]
 
 
+@contextmanager
+def shallow(field: str) -> Iterator[None]:
+    """Raise InputError, for `field`, if settings that the block goes through are nested too deeply for Python."""
+    try:
+        yield
+    except RecursionError:
+        raise InputError(field, "settings nested a few levels deep", "hundreds of levels") from None
+
+
+@shallow("run")
 def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -> RunFile:
     """Return the run `what`: an experiment of the paper by name, or a TOML file by path.
 
@@ -52,26 +62,21 @@ def run_file(what: str, overrides: Iterable[str] = (), law: str | None = None) -
 
     Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
-    try:
-        settings = _read(what)
-        if law is not None:
-            settings["law"] = table_of(law)
-        for override in overrides:
-            _override(settings, override)
-        return run_of(settings)
-    except RecursionError:
-        raise _TOO_DEEP from None
+    settings = _read(what)
+    if law is not None:
+        settings["law"] = table_of(law)
+    for override in overrides:
+        _override(settings, override)
+    return run_of(settings)
 
 
+@shallow("run")
 def run_of(settings: dict[str, Any]) -> RunFile:
     """Return the run that `settings`, the content of a TOML file, specifies. Raises InputError like `run_file`."""
-    try:
-        for key, value in settings.items():
-            check_plain(key, value)
-        with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
-            return _build(_complete(settings))
-    except RecursionError:
-        raise _TOO_DEEP from None
+    for key, value in settings.items():
+        check_plain(key, value)
+    with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
+        return _build(_complete(settings))
 
 
 def run_text(settings: dict[str, Any], folder: str | Path) -> str:
@@ -86,7 +91,7 @@ def _read(what: str) -> dict[str, Any]:
         if what.endswith(".nc"):
             raise InputError(what, "a run file (.toml)", f"a saved run: flypend replay {what}")
         settings = read_toml(what)
-        if study := sorted(STUDY_KEYS & settings.keys()):
+        if study := sorted(settings.keys() & STUDY_KEYS):
             told = f"a study (it has {study[0]}): flypend sweep {what} -o {Path(what).stem}.zarr"
             raise InputError(what, "a run file", told)
         if "law" in settings:
@@ -171,9 +176,7 @@ def plant_of(value: Any) -> AnyPlant:
         return replace(base, **given)
     for key, kind in (("noise", Noise), ("wind", Wind)):
         if key in given:
-            table = table_at(given, key)
-            errors.only_known(f"plant.{key}", table, [entry.name for entry in fields(kind)])
-            given[key] = kind(**table)
+            given[key] = record_at(given, key, kind, f"plant.{key}")
     return base.replace(**given)
 
 
@@ -193,12 +196,19 @@ def _controller(law: Law | Controller, vehicle: Vehicle, world: AnyPlant, kind: 
     return compiled(law, vehicle, "double" if kind == "c" else "float")
 
 
-def table_at(settings: dict[str, Any], key: str, field: str = "") -> dict[str, Any]:
+def table_at(settings: Mapping[str, Any], key: str, field: str = "") -> dict[str, Any]:
     """Return the table `key` of `settings`, empty if absent. Raises InputError, with the field name `field`."""
     value = settings.get(key, {})
     if not isinstance(value, dict):
         raise InputError(field or key, "a table", repr(value))
     return dict(value)
+
+
+def record_at(settings: Mapping[str, Any], key: str, kind: type[Record], field: str = "") -> Record:
+    """Return the record whose fields the table `key` of `settings` has. Raises InputError, with the name `field`."""
+    table = table_at(settings, key, field)
+    errors.only_known(field or key, table, [entry.name for entry in fields(cast("Any", kind))])
+    return kind(**table)
 
 
 def _override(settings: dict[str, Any], text: str) -> None:
@@ -207,17 +217,15 @@ def _override(settings: dict[str, Any], text: str) -> None:
     keys = [key.strip() for key in path.split(".")]
     if not equals or not all(key and key.isprintable() for key in keys):
         raise InputError("--set", "KEY.KEY=VALUE, such as law.gains.k_d=2", repr(text))
+    if len(keys) > 1:
+        errors.only_known("", keys[:1], KEYS)
+        if keys[0] in ("vehicle", "plant", "law") and isinstance(name := settings.get(keys[0]), str):
+            settings[keys[0]] = table_of(name) if keys[0] == "law" else {"base": name}
     table = settings
-    for depth, key in enumerate(keys[:-1]):
-        if depth == 0:
-            errors.only_known("", [key], KEYS)
-        if key in ("vehicle", "plant") and depth == 0 and isinstance(table.get(key), str):
-            table[key] = {"base": table[key]}
-        if key == "law" and depth == 0 and isinstance(table.get(key), str):
-            table[key] = table_of(table[key])
+    for depth, key in enumerate(keys[:-1], 1):
         table = table.setdefault(key, {})
         if not isinstance(table, dict):
-            raise InputError("--set", f"a table at {'.'.join(keys[: depth + 1])}", repr(table))
+            raise InputError("--set", f"a table at {'.'.join(keys[:depth])}", repr(table))
     try:
         parsed = tomllib.loads(f"value = {value}")
     except ValueError:  # not TOML, or an integer with thousands of digits
@@ -226,7 +234,6 @@ def _override(settings: dict[str, Any], text: str) -> None:
 
 
 def _build(settings: dict[str, Any]) -> RunFile:
-    errors.only_known("", settings, KEYS)
     vehicle, plant = Vehicle.from_dict(table_at(settings, "vehicle")), plant_of(settings.get("plant", "rotors"))
     law = _controller(law_from(settings["law"]), vehicle, plant, settings.get("controller", "python"))
     flight = Flight(

@@ -40,14 +40,9 @@ _taken = False  # whether the handlers are ours
 
 
 def poll() -> None:
-    """Raise if a signal has asked for an end.
+    """Raise if a signal has asked for an end: in the command line SystemExit, with the exit code.
 
-    Raises
-    ------
-    SystemExit
-        In the command line, with the exit code.
-    BaseException
-        In a script, whatever its own handler has raised: KeyboardInterrupt, unless it has another.
+    In a script it is whatever its own handler has raised: KeyboardInterrupt, unless it has another.
     """
     global _polled
     if not word[0]:

@@ -15,7 +15,6 @@ from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.feasibility import feasibility
-from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import task_starts
 from flypend.laws import inverted
@@ -23,7 +22,7 @@ from flypend.model import Vehicle
 from flypend.model.rod import stretched
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
-from flypend.studies.margins import LEAST_RATE
+from flypend.studies.margins import LEAST_RATE, Count
 
 RUNS, DURATION = 100, 30.0  # flights of a changed vehicle, and seconds of each, as in a check
 # Factors of each number, from a small change to the largest that leaves the machine recognisable, and how to make it.
@@ -38,21 +37,11 @@ UNITS = {"rod_length": "m to the centre of mass", "bob_mass": "kg", "rotor_limit
 
 @dataclass(frozen=True)
 class Change:
-    """A changed vehicle that was flown.
+    """A changed vehicle that was flown."""
 
-    Parameters
-    ----------
-    factors : dict
-        Factor of each number that was changed, of `CHANGES`.
-    how : str
-        The change in words, with the numbers it leads to.
-    successes, runs : int
-        How many of how many random flights succeed.
-    """
-
-    factors: Mapping[str, float]
-    how: str
-    successes: int
+    factors: Mapping[str, float]  # of each number that was changed, of `CHANGES`
+    how: str  # the change in words, with the numbers it leads to
+    successes: int  # of so many random flights
     runs: int
 
     @property
@@ -62,30 +51,18 @@ class Change:
 
     def describe(self) -> str:
         """Return change and success with its Wilson interval, 95 %, in a line."""
-        low, high = wilson(self.successes, self.runs)
-        return f"{self.how}: {self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
+        return f"{self.how}: {Count(self.successes, self.runs).describe()}"
 
 
 @dataclass(frozen=True)
 class Advice:
-    """What to fly on a vehicle.
+    """What to fly on a vehicle."""
 
-    Parameters
-    ----------
-    law : str
-        The best of the laws; empty if none flies the vehicle from 90 % of the random starts.
-    why : str
-        What it does beside the others, in a line.
-    changes : tuple of Change
-        Changes of a vehicle that no law flies: the smallest of each kind that works; if no kind does, all at once.
-    as_written : tuple of str
-        Laws that fly the vehicle as written, where none flies vehicles drawn from its bands.
-    """
-
-    law: str
-    why: str
+    law: str  # the best of the laws; empty if none flies the vehicle from 90 % of the random starts
+    why: str  # what it does beside the others, in a line
+    # Changes of a vehicle that no law flies: the smallest of each kind that works; if no kind does, all at once.
     changes: tuple[Change, ...] = ()
-    as_written: tuple[str, ...] = ()
+    as_written: tuple[str, ...] = ()  # laws that fly the vehicle as written, where none flies those of its bands
 
     def lines(self) -> list[str]:
         """Return the law and why, or what to change."""
@@ -103,12 +80,7 @@ class Advice:
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and dicts."""
-        return {
-            "law": self.law,
-            "why": self.why,
-            "as_written": self.as_written,
-            "changes": [asdict(one) for one in self.changes],
-        }
+        return asdict(self)
 
 
 def advise(
@@ -122,20 +94,14 @@ def advise(
     """Name the best of checked laws, or find out which change of `vehicle` would do.
 
     The best law succeeds from 90 % of the random starts, of drawn vehicles if those were flown, and is the best of such
-    laws by `best_of`.
-
-    Parameters
-    ----------
-    vehicle : Vehicle
-        The vehicle of the checks.
-    checks : dict of Check
-        By name of the law.
-    plant, seed
-        As in `check`.
-    progress : callable
-        Called with `(task, done, total)`.
+    laws by `best_of`. The `checks` of the vehicle are keyed by the name of the law; `plant` and `seed` are as in
+    `check`. `progress` is called with (task, done, total).
     """
-    flown = {law: _judged(check) for law, check in checks.items() if check.ok and check.tasks}
+    flown = {
+        law: check.tasks.get("drawn", check.tasks["random"])
+        for law, check in checks.items()
+        if check.ok and check.tasks
+    }
     why = "; ".join(f"{law}: {_told(flown[law])}" if law in flown else f"{law}: cannot hover" for law in checks)
     best = best_of(flown)
     written = tuple(law for law in flown if checks[law].tasks["random"].rate >= LEAST_RATE)
@@ -208,11 +174,6 @@ def _number(vehicle: Vehicle, name: str) -> str:
     return f"{value:.3g} {unit}"
 
 
-def _judged(check: Check) -> Ensemble:
-    return check.tasks.get("drawn", check.tasks["random"])
-
-
 def _told(flown: Ensemble) -> str:
-    low, high = flown.interval
-    share = f"{int(flown.success.sum())} of {len(flown)} ({100 * low:.1f} to {100 * high:.1f} %)"
-    return f"{share}, {flown.percentile('excursion', 50):.3g} m off in the median"
+    count = Count(int(flown.success.sum()), len(flown))
+    return f"{count.describe()}, {flown.percentile('excursion', 50):.3g} m off in the median"

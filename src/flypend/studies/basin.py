@@ -40,48 +40,22 @@ PASSES = ((10.0, 1e-6, 1e-8), (40.0, 1e-9, 1e-11))
 
 @dataclass(frozen=True)
 class MeasuredBasin:
-    """How many of `runs` random starts end in the certified set.
+    """How many of `runs` random starts end in the certified set."""
 
-    Parameters
-    ----------
-    vehicle, law : str
-        Names of the vehicle and of the law that flies until the set is entered.
-    mount : str
-        The vehicle's.
-    lag : bool
-        Whether rotors lag.
-    starts : str
-        "random" or "hanging".
-    c, yaw_rate : float
-        The certified set, m²/s² and rad/s.
-    runs, seed : int
-        Starts, and their seed.
-    entered : int
-        Flights that enter.
-    touched : int
-        Flights that do not enter and end where the rod touches a rotor disc or an arm.
-    again : int
-        Flights that were flown again, at tighter tolerances.
-    slowest : float, optional
-        Longest time until a flight is inside, s; None if none is.
-    least : float
-        Largest share p of which the flights say, at 95 %, that starts outside the basin are fewer than 1 − p.
-    """
-
-    vehicle: str
-    law: str
-    mount: str
-    lag: bool
-    starts: str
-    c: float
-    yaw_rate: float
+    vehicle: str  # its name
+    law: str  # name of the law that flies until the set is entered
+    mount: str  # the vehicle's
+    lag: bool  # whether rotors lag
+    starts: str  # "random" or "hanging"
+    c: float  # of the certified set, m²/s²
+    yaw_rate: float  # of the certified set, rad/s
     runs: int
-    seed: int
-    entered: int
-    touched: int
-    again: int
-    slowest: float | None
-    least: float
+    seed: int  # of the starts
+    entered: int  # flights that enter
+    touched: int  # flights that do not enter and end where the rod touches a rotor disc or an arm
+    again: int  # flights that were flown again, at tighter tolerances
+    slowest: float | None  # longest time until a flight is inside, s; None if none is
+    least: float  # largest share p of which they say, at 95 %, that starts outside the basin are fewer than 1 − p
 
     def save(self, path: str | Path) -> None:
         """Write the numbers to the file `path`, as JSON."""
@@ -98,27 +72,15 @@ def measure_basin(
     starts: str = "random",
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> MeasuredBasin:
-    """Fly `runs` random starts within the rotor limits of `vehicle` until they are in the certified set.
+    """Fly `runs` random starts of `seed` within the rotor limits of `vehicle` until they are in the certified set.
 
-    Parameters
-    ----------
-    vehicle : Vehicle
-        One that Theorem B models, on a gimbal or a hub.
-    runs, seed : int
-        Number of starts, and their seed.
-    lag : bool
-        Whether rotors lag, by the vehicle's `rotor_lag`. They begin at their minimum.
-    starts : "random" or "hanging"
-        Drawn like `random_starts`; or level at rest at any heading, with the rod within 10° of straight down, uniform
-        on that cap of the sphere. On a hub, those of them whose rod touches nothing.
-    progress : callable
-        Called with (task, done, total).
+    Theorem B must model the vehicle, on a gimbal or a hub. With `lag` rotors lag, by its `rotor_lag`, and begin at
+    their minimum. Random `starts` are drawn like `random_starts`; hanging ones are level at rest at any heading, with
+    the rod within 10° of straight down, uniform on that cap of the sphere. On a hub, they are those of them whose rod
+    touches nothing. `progress` is called with (task, done, total).
 
-    Raises
-    ------
-    InputError
-        If runs, seed or starts are invalid, the theorem does not cover the vehicle, or the extra "studies"
-        is missing.
+    Raises InputError if runs, seed or starts are invalid, the theorem does not cover the vehicle, or the extra
+    "studies" is missing.
     """
     errors.require("scipy", extra="studies", for_="basin")
     from scipy.stats import beta  # slow to import

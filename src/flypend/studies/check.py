@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from functools import partial
 from typing import Any
@@ -16,7 +16,7 @@ from flypend.flight.ensemble import Ensemble
 from flypend.flight.feasibility import Feasibility, feasibility
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import fly_tasks, task_starts
-from flypend.laws import AnyLaw, BoundLaw, Controller, inverted
+from flypend.laws import AnyLaw, BoundLaw, inverted
 from flypend.laws.located import LawError
 from flypend.model import State, Vehicle
 from flypend.planning.planner import plan_ensemble
@@ -25,8 +25,8 @@ from flypend.plants import AnyPlant, Sampled
 from flypend.plants.bands import check_bands
 from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import fly_within
-from flypend.studies.compare import summary
-from flypend.studies.margins import LEAST_RATE, Margin, quantities, search
+from flypend.studies.compare import Progress, summary
+from flypend.studies.margins import LEAST_RATE, Count, Margin, quantities, search
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -36,9 +36,7 @@ MOST_RUNS = 1_000_000  # minutes of flights; a sweep can be stopped and resumed
 GRADES = ("all", "most", "some", "none")  # of the starts of a task succeed; most: at least 90 %
 STARTS = 8  # of the random ones, to plan from where a law fails
 MOST, HARDLY_ANY = 0.9, 0.1  # shares of them
-LEAST_DURATION = 10.0  # s, of a flight for a margin; at least twice what 95 % need to settle
-
-Progress = Callable[[str, int, int], Any]
+LEAST_DURATION = 10.0  # s, of a flight for a margin, or twice what 95 % need to settle if that is more
 
 
 @dataclass(frozen=True)
@@ -126,13 +124,14 @@ class Check:
         lines = [f"<Check of {self.law} on {self.vehicle.name}: {'can' if self.ok else 'cannot'} be flown"]
         lines += [f"  {line}" for line in (*self.reasons, *self.warnings, self.possible) if line]
         for name, row in self.rows().items():
-            span = f"{100 * row['wilson_low']:.1f} to {100 * row['wilson_high']:.1f} %"
+            count = Count(row["successes"], row["runs"]).describe()
             lines.append(
-                f"  {name:7} {self.envelope[name]}: {row['successes']} of {row['runs']} ({span}), "
+                f"  {name:7} {self.envelope[name]}: {count}, "
                 f"excursion {row['excursion_p50']:.3g}/{row['excursion_p95']:.3g} m"
             )
-        if self.catch is not None:
-            lines.append(f"  leans caught directly: {_degrees(self.catch)}")
+        if (catch := self.catch) is not None:
+            reach = f"up to {np.degrees(catch.lean):.0f}°, excursion {catch.excursion:.3g} m"
+            lines.append(f"  leans caught directly: {reach if catch.lean else 'none'}")
         lines += [f"  {name}: {margin.describe()}" for name, margin in self.margins.items()]
         return "\n".join(lines) + ">"
 
@@ -232,15 +231,18 @@ def check(
         vehicle, usual if runs is None else errors.integer("runs", runs, 1, MOST_RUNS), seed, directions
     )
     tasks = fly_tasks(vehicle, bound, world, starts, seconds, workers=workers, progress=progress)
+    random = Flight(
+        vehicle=vehicle, law=bound, starts=starts["random"].in_frame(bound.e3), duration=seconds, plant=world
+    )
     if bands:
-        random = starts["random"].in_frame(bound.e3)
-        flight = Flight(vehicle=vehicle, law=bound, starts=random, duration=seconds, plant=world)
-        tasks["drawn"] = fly_within(flight, seed, workers, partial(progress, "drawn"))
+        tasks["drawn"] = fly_within(random, seed, workers, partial(progress, "drawn"))
     reasons, shortfalls = _shortfalls(tasks)
     about |= {"tasks": tasks, "catch": caught(tasks["lean"], directions)}
     if (quick if margins is None else margins) and tasks["random"].rate >= LEAST_RATE:
-        flight = _of_margins(vehicle, bound, world, tasks["random"], seconds, quick)
-        about["margins"] = search(flight, quantities(vehicle, world), progress)
+        enough = max(LEAST_DURATION, 2 * tasks["random"].percentile("settling", 95))
+        some = random.starts[: MARGIN_RUNS if quick else SLOW_MARGIN_RUNS]
+        few = random.replace(starts=some, duration=float(min(seconds, enough)))
+        about["margins"] = search(few, quantities(vehicle, world), progress)
     if (reasons or shortfalls) and world.limits:
         about["plans"] = plan_some(world.true_vehicle(vehicle), starts["random"], workers, progress)
     trembles = too_noisy(bound, world) if isinstance(bound, BoundLaw) else ""
@@ -296,20 +298,3 @@ def _shortfalls(tasks: Mapping[str, Ensemble]) -> tuple[tuple[str, ...], tuple[s
             causes = ", ".join(f"{cause} {count}" for cause, count in summary(ensemble)["causes"].items())
             told[name] = f"{name}: {int(ensemble.success.sum())} of {len(ensemble)} succeed ({causes})"
     return tuple(told[name] for name in told if name == "hover"), tuple(told[name] for name in told if name != "hover")
-
-
-def _of_margins(
-    vehicle: Vehicle, law: BoundLaw | Controller, plant: Sampled, flown: Ensemble, duration: float, quick: bool
-) -> Flight:
-    """Return the flights of every value of a margin: the first random starts, no longer than they need to settle."""
-    needed = 2 * flown.percentile("settling", 95)
-    return Flight(
-        vehicle=vehicle, law=law, starts=flown.starts[: MARGIN_RUNS if quick else SLOW_MARGIN_RUNS],
-        duration=float(min(duration, max(LEAST_DURATION, needed))), plant=plant,
-    )  # fmt: skip
-
-
-def _degrees(catch: Catch) -> str:
-    if not catch.lean:
-        return "none"
-    return f"up to {np.degrees(catch.lean):.0f}°, excursion {catch.excursion:.3g} m"

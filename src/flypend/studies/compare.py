@@ -1,12 +1,14 @@
-"""Laws flown from the same starts, in one table."""
+"""Laws flown from the same starts, in one table, and their failed flights as run files, to be flown again."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import partial
+from itertools import chain, count
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -19,7 +21,10 @@ from flypend.flight.labelled import dataset, variable
 from flypend.flight.request import Flight, bound_to, check_batch, check_judged
 from flypend.laws import AnyLaw, Controller, Law
 from flypend.model import State, Vehicle
+from flypend.model.state import SHAPES
 from flypend.plants import AnyPlant
+from flypend.settings.laws import absolute, table_of
+from flypend.settings.runfile import plant_of, run_of
 from flypend.signals.waiting import result_of, threads
 
 if TYPE_CHECKING:
@@ -28,6 +33,7 @@ if TYPE_CHECKING:
 Progress = Callable[[str, int, int], Any]
 # Kernels that are compiled while a flight waits or flies, its own included.
 AHEAD = 4
+MOST_KEPT = 100  # failed flights of each law: one that fails for ever needs no thousand files
 Name = TypeVar("Name", str, tuple[str, str])
 
 
@@ -138,7 +144,8 @@ def flights_of(
     for law in several:
         errors.check_kind("law", law, AnyLaw)
         own = starts.in_frame(law.e3)
-        name = _free_name(law.name, flights)
+        names = chain([law.name], (f"{law.name} ({number})" for number in count(2)))
+        name = next(one for one in names if one not in flights)
         flights[name] = Flight(vehicle=vehicle, law=bound_to(vehicle, law), starts=own, duration=duration)
         check_judged(flights[name])
     return flights
@@ -192,8 +199,49 @@ def summary(ensemble: Ensemble) -> dict[str, Any]:
     }
 
 
-def _free_name(name: str, taken: Mapping[str, Flight]) -> str:
-    out, count = name, 2
-    while out in taken:
-        out, count = f"{name} ({count})", count + 1
-    return out
+def files_of_failures(
+    comparison: Comparison, laws: Sequence[str], plant: Any, duration: float, drawn: Sequence[AnyPlant] = ()
+) -> dict[str, Any]:
+    """Return the content of a run file for each failed flight of `comparison`, by name "law-run".
+
+    Of each of `laws`, called as on the command line, at most `MOST_KEPT` are taken. `plant` is a name or a table, as in
+    a run file, the `duration` of a flight in s. Shares flew through plants `drawn` from it; none if through it alone.
+    """
+    found: dict[str, Any] = {}
+    table_of_plant, base = {"base": plant} if isinstance(plant, str) else dict(plant), plant_of(plant)
+    seed = getattr(base, "seed", None)
+    for (name, ensemble), law in zip(comparison.ensembles.items(), laws, strict=True):
+        table = absolute(table_of(law), Path.cwd())
+        ends = share_ends(len(ensemble), len(drawn)) if drawn else [0]
+        for run in np.flatnonzero(~ensemble.success)[:MOST_KEPT]:
+            start = ensemble.starts[run]
+            own = differing(drawn[np.searchsorted(ends, run, "right") - 1], base) if drawn else {}
+            found[f"{_plain(name)}-{run}"] = {
+                "vehicle": ensemble.vehicle.to_dict(),
+                "law": table,
+                "plant": plant if seed is None else table_of_plant | own | {"seed": seed + int(run)},
+                "duration": float(duration),
+                "start": {field: getattr(start, field).tolist() for field in SHAPES},
+            }
+    return found
+
+
+def fly_again(runs: Mapping[str, Any], folder: Path, progress: Any = lambda *_: None) -> None:
+    """Fly the run files `runs` of `files_of_failures` one by one, and save each in `folder` as name.nc."""
+    from flypend.flight.simulate import fly
+
+    for done, (name, content) in enumerate(runs.items()):
+        progress(f"flying {name} again", done, len(runs))
+        fly(run_of(dict(content)).flight).save(folder / f"{name}.nc")
+
+
+def differing(plant: AnyPlant, base: AnyPlant) -> dict[str, Any]:
+    """Return the fields in which `plant` differs from `base`, as a run file has them."""
+    found = {entry.name: getattr(plant, entry.name) for entry in fields(plant)}
+    changed = {name: value for name, value in found.items() if value != getattr(base, name)}
+    return {name: dict(value) if isinstance(value, Mapping) else value for name, value in changed.items()}
+
+
+def _plain(name: str) -> str:
+    """`name` without characters that a file name cannot have."""
+    return "".join(letter if letter.isalnum() else "-" for letter in name).strip("-")

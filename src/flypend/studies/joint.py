@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from flypend import errors, plants, signals
 from flypend.errors import InputError
-from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
@@ -22,8 +21,8 @@ from flypend.plants import PRESETS, SUITES, AnyPlant, Sampled
 from flypend.plants.bands import world_of
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
-from flypend.signals.waiting import result_of, threads
-from flypend.studies.margins import LEAST_RATE, SEARCHES
+from flypend.studies.compare import Progress
+from flypend.studies.margins import LEAST_RATE, Count, count_of, fly_beside, for_each
 from flypend.studies.trial import is_up, knock_on
 
 # Half widths, relative, of the bands of a vehicle that has none: weighed and measured in haste.
@@ -32,7 +31,7 @@ NOT_FLOWN = ("rotor_limits", "rotor_drag", "latency")  # bands that `world_of` l
 LIMITS = {"sag": MOST_SAG, "delay": LONGEST_DELAY}  # beyond which there is no plant
 JOINTS_OFF = float(np.radians(0.5))  # zeros of encoders, as the angles of the suite "laboratory"
 SCALES = (1.0, 2.0, 4.0)  # of all errors together, until success drops below LEAST_RATE
-SHARES = (0.5, 0.25, 0.125, 0.0)  # of an error that is calibrated
+SHARES = (0.5, 0.25, 0.125)  # of an error that is calibrated
 DRAWS = 6  # vehicles drawn from the bands
 # Random starts of all draws together and of one variant, and both where flights are slow.
 RUNS, VARIANT_RUNS, SLOW_RUNS = 384, 48, 6
@@ -41,73 +40,30 @@ DURATION = 12.0  # s; three times what 95 % of the random starts need
 POKES, POKE_PERIOD, SAMPLE = 48, 12.0, 0.05
 NOT_YET = 1e-12  # of a poke, so that all flights of a vehicle share a kernel
 
-Progress = Callable[[str, int, int], Any]
-
-
-class Count(NamedTuple):
-    """How many of `runs` flights succeed."""
-
-    successes: int
-    runs: int
-
-    @property
-    def rate(self) -> float:
-        """Share of the flights that succeed."""
-        return self.successes / self.runs
-
-    def describe(self) -> str:
-        """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
-        low, high = wilson(*self)
-        return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
-
 
 @dataclass(frozen=True)
 class Cause:
-    """One of the errors of a laboratory.
+    """One of the errors of a laboratory."""
 
-    Parameters
-    ----------
-    name : str
-        A number of the vehicle's bands, or a field of the plant or its sensors.
-    size : str
-        How large it is where it was turned up alone and off.
-    alone, without : Count
-        Flights with this error alone, and with all the others.
-    """
-
-    name: str
-    size: str
-    alone: Count
-    without: Count
+    name: str  # a number of the vehicle's bands, or a field of the plant or its sensors
+    size: str  # how large it is where it was turned up alone and off
+    alone: Count  # flights with this error alone
+    without: Count  # flights with all the others
 
 
 @dataclass(frozen=True)
 class Joint:
-    """The result of `joint`.
+    """The result of `joint`."""
 
-    Parameters
-    ----------
-    tasks : dict of Count
-        Success of each task, "pokes" among them, under all errors at once.
-    draws : int
-        Vehicles that share the flights of a task.
-    scales : dict of Count
-        Scale of all errors → random starts of the draw in which most fail.
-    causes : tuple of Cause
-        The errors at the largest of these scales, the one that fails first at the beginning. Empty if 90 % succeed at
-        every scale.
-    calibrated : tuple of str
-        Errors that must be smaller for 90 % of those flights to succeed.
-    share, kept : float, Count
-        Of their sizes, the largest share at which that is so, and the flights at it; 0 and those with none of them if
-        no share is small enough.
-    """
-
-    tasks: Mapping[str, Count]
-    draws: int
-    scales: Mapping[float, Count]
+    tasks: Mapping[str, Count]  # success of each task, "pokes" among them, under all errors at once
+    draws: int  # vehicles that share the flights of a task
+    scales: Mapping[float, Count]  # scale of all errors → random starts of the draw in which most fail
+    # The errors at the largest of these scales, the one that fails first at the beginning. Empty if 90 % succeed at
+    # every scale.
     causes: tuple[Cause, ...] = ()
-    calibrated: tuple[str, ...] = ()
+    calibrated: tuple[str, ...] = ()  # errors that must be smaller for 90 % of those flights to succeed
+    # Of their sizes, the largest share at which that is so, and the flights at it; 0 and those with none of them if no
+    # share is small enough.
     share: float = 1.0
     kept: Count | None = None
 
@@ -130,11 +86,8 @@ class Joint:
         out.append(f"fails first, errors × {self.scale:g}: {first.name} {first.size}")
         assert self.kept is not None
         sizes = ", ".join(f"{one.name} {one.size}" for one in self.causes if one.name in self.calibrated)
-        told = (
-            f"to × {self.share:g} of {sizes}: {self.kept.describe()}"
-            if self.share
-            else f"{sizes}: {self.kept.describe()} if right"
-        )
+        kept = self.kept.describe()
+        told = f"to × {self.share:g} of {sizes}: {kept}" if self.share else f"{sizes}: {kept} if right"
         return [*out, f"calibrate {told}"]
 
     def to_dict(self) -> dict[str, Any]:
@@ -168,7 +121,8 @@ class Errors:
     """
 
     def __init__(self, vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> None:
-        bands = vehicle.bands or {name: _about(getattr(vehicle, name), share) for name, share in USUAL.items()}
+        usual = {name: getattr(vehicle, name) * np.array([1 - share, 1 + share]) for name, share in USUAL.items()}
+        bands = vehicle.bands or usual
         drawn = {name: np.asarray(rng.uniform(*map(np.array, band))) for name, band in bands.items()}
         self._vehicle, self._drawn = vehicle, {name: v for name, v in drawn.items() if name not in NOT_FLOWN}
         self._defects = _defects(plant)
@@ -234,10 +188,6 @@ class Errors:
         return _limited(name, written + scale * (drawn - written))
 
 
-def _about(value: float, share: float) -> tuple[float, float]:
-    return value * (1 - share), value * (1 + share)
-
-
 def _limited(name: str, value: Any) -> Any:
     return np.clip(value, 0.0, LIMITS[name]) if name in LIMITS else value
 
@@ -280,17 +230,10 @@ def joint(
     succeed; there each error is turned up alone, and off from all. What fails first is what success gains most
     without, or of equal ones what it loses most by alone.
 
-    Parameters
-    ----------
-    vehicle, law, plant
-        As in `check`. Bands of the vehicle and defects of the plant's sensors are the sizes of the errors; where
-        there are none, those of `USUAL` and of the plant "laboratory".
-    runs : int, optional
-        Random starts of all draws together; default 384. A variant flies 48, or as many if that is fewer.
-    seed : int
-        Seed of starts and of the vehicles drawn.
-    progress : callable
-        Called with `(task, done, total)`.
+    `vehicle`, `law` and `plant` are as in `check`. Bands of the vehicle and defects of the plant's sensors are the
+    sizes of the errors; where there are none, those of `USUAL` and of the plant "laboratory". All draws together fly
+    `runs` random starts, by default 384; a variant flies 48, or as many if that is fewer. Starts and vehicles are drawn
+    by `seed`. `progress` is called with (task, done, total).
     """
     world = plants.as_sampled(plant)
     bound = bound_to(vehicle, inverted() if law is None else law)
@@ -299,8 +242,7 @@ def joint(
     flight = Flight(
         vehicle=vehicle, law=bound, starts=starts["random"].in_frame(bound.e3), duration=DURATION, plant=world
     )
-    compiled = has_kernel(flight)
-    if runs is None and not compiled:
+    if runs is None and not has_kernel(flight):
         starts = {name: some[:SLOW_RUNS] for name, some in starts.items()}
     rng = np.random.default_rng(seed)
     drawn = [Errors(vehicle, world, rng) for _ in range(DRAWS)]
@@ -336,7 +278,7 @@ def _explain(
             (kept,) = _fly(flight, [wrong.variant(whole | dict.fromkeys(off, 0.0))], partial(progress, "several off"))
         if kept.rate >= LEAST_RATE:
             break
-    for share in SHARES[:-1]:
+    for share in SHARES:
         (count,) = _fly(flight, [wrong.variant(whole | dict.fromkeys(off, share * scale))], partial(progress, "shares"))
         if count.rate >= LEAST_RATE:
             return tuple(causes), tuple(off), share, count
@@ -348,7 +290,6 @@ def _fly_tasks(
 ) -> tuple[dict[str, Count], Errors]:
     """Return success of each task, whose starts the draws share, and the draw in which most random starts fail."""
     vehicle, law = flight.vehicle, flight.law
-    compiled = has_kernel(flight)
     poked = min(POKES, 2 * len(starts["random"]))
     all_starts = {**starts, "pokes": State(y=np.tile([0.0, 0.0, 1.0], (poked, 1)))}
     speed = float(np.sqrt(vehicle.g * vehicle.l))
@@ -365,16 +306,10 @@ def _fly_tasks(
             )  # fmt: skip
             if name == "pokes":
                 one = one.replace(duration=2 * POKE_PERIOD, times=np.arange(0.0, 2 * POKE_PERIOD, SAMPLE))
-            flown = _flown(one, 1 if compiled else None)
-            good = 0 if flown is None else int((_stands(flown) if name == "pokes" else flown.success).sum())
-            found[name] = Count(good, len(mine))
+            found[name] = _counted(one, _stand_of if name == "pokes" else count_of)
         return found
 
-    found: list[dict[str, Count]] = []
-    with threads(SEARCHES if compiled else 1) as pool:
-        for job in [pool.submit(fly, place) for place in range(len(drawn))]:
-            found.append(result_of(job))
-            progress("all errors at once", len(found), len(drawn))
+    found = for_each(flight, fly, range(len(drawn)), partial(progress, "all errors at once"))
     tasks = {
         name: Count(*map(sum, zip(*(one[name] for one in found if name in one), strict=True))) for name in all_starts
     }
@@ -382,29 +317,20 @@ def _fly_tasks(
     return tasks, drawn[worst]
 
 
-def _stands(poked: Ensemble) -> Any:
-    """Whether the rod is up for more than half of each half of a flight."""
-    return np.all([half.mean(axis=1) > 0.5 for half in np.hsplit(is_up(poked), 2)], axis=0)
+def _stand_of(poked: Flight) -> Count:
+    """Return in how many runs the rod is up for more than half of each half of the flight."""
+    stands = np.all([half.mean(axis=1) > 0.5 for half in np.hsplit(is_up(fly_beside(poked)), 2)], axis=0)
+    return Count(int(stands.sum()), poked.runs)
 
 
 def _fly(flight: Flight, worlds: Sequence[Sampled], progress: Callable[[int, int], Any]) -> list[Count]:
     """Fly every start of `flight` in each of `worlds`."""
-    compiled, out = has_kernel(flight), []
-
-    def fly(world: Sampled) -> Count:
-        flown = _flown(flight, 1 if compiled else None, world)
-        return Count(0 if flown is None else int(flown.success.sum()), flight.runs)
-
-    with threads(SEARCHES if compiled else 1) as pool:
-        for job in [pool.submit(fly, world) for world in worlds]:
-            out.append(result_of(job))
-            progress(len(out), len(worlds))
-    return out
+    return for_each(flight, lambda world: _counted(flight.through(world)), worlds, progress)
 
 
-def _flown(flight: Flight, workers: int | None, world: Sampled | None = None) -> Ensemble | None:
-    """Return the flights, or None if such a vehicle cannot fly."""
+def _counted(flight: Flight, count: Callable[[Flight], Count] = count_of) -> Count:
+    """Return the `count` of a `flight`: none if such a vehicle cannot fly."""
     try:
-        return fly_many(flight if world is None else flight.through(world), workers=workers)
+        return count(flight)
     except InputError:
-        return None
+        return Count(0, flight.runs)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
 from flypend.plants.defects import NEEDS
 from flypend.plants.sensors import sensors_called
-from flypend.studies.compare import Comparison, flights_of, fly_each
+from flypend.studies.compare import Comparison, differing, flights_of, fly_each
 
 if TYPE_CHECKING:
     import xarray
@@ -92,7 +92,11 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
         found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
     if known:
         found["air"] = ROTORS.replace(air="all")
-    found |= _joint(vehicle)
+    swing = 2 * SWING_DAMPING * vehicle.m * vehicle.l * np.sqrt(vehicle.g * vehicle.l)
+    found["viscous friction"] = ROTORS.replace(pivot_damping=float(swing))
+    found["dry friction"] = ROTORS.replace(pivot_friction=float(DRY_SHARE * vehicle.m * vehicle.g * vehicle.l))
+    if vehicle.rod_spin_inertia > 0:
+        found["rod spin 10 turns/s"] = ROTORS.replace(rod_spin=float(ROD_SPIN))
     return found | {", ".join(names): together(names, found) for names in TOGETHER if set(names) <= found.keys()}
 
 
@@ -111,19 +115,6 @@ def sensor_rungs(suite: str) -> dict[str, AnyPlant]:
     return found | {"laboratory": PRESETS["laboratory"]}
 
 
-def _joint(vehicle: Vehicle) -> dict[str, AnyPlant]:
-    """Return the rungs of the joint: friction, and spin of a rod that has an inertia about its own axis."""
-    moment = vehicle.m * vehicle.g * vehicle.l
-    swing = 2 * SWING_DAMPING * vehicle.m * vehicle.l * np.sqrt(vehicle.g * vehicle.l)
-    found: dict[str, AnyPlant] = {
-        "viscous friction": ROTORS.replace(pivot_damping=float(swing)),
-        "dry friction": ROTORS.replace(pivot_friction=float(DRY_SHARE * moment)),
-    }
-    if vehicle.rod_spin_inertia > 0:
-        found["rod spin 10 turns/s"] = ROTORS.replace(rod_spin=float(ROD_SPIN))
-    return found
-
-
 def together(names: Sequence[str], rungs: Mapping[str, AnyPlant]) -> Sampled:
     """Return the plant with the departures of several of `rungs` at once.
 
@@ -134,15 +125,11 @@ def together(names: Sequence[str], rungs: Mapping[str, AnyPlant]) -> Sampled:
         plant = rungs[errors.one_of("--rung", name, rungs)]
         if not isinstance(plant, Sampled):
             raise InputError("--rung", "rungs with numbers", repr(name))
-        for entry in fields(Sampled):
-            value = getattr(plant, entry.name)
-            if value == getattr(ROTORS, entry.name):
-                continue
-            before = changes.get(entry.name)
-            merging = entry.name == "mismatch" and before is not None and not before.keys() & value.keys()
-            if before is not None and not merging:
-                raise InputError("--rung", "rungs that change different numbers", f"{entry.name} twice in {names}")
-            changes[entry.name] = before | value if merging else value
+        for field, value in differing(plant, ROTORS).items():
+            before = changes.get(field, {})
+            if field in changes and (field != "mismatch" or before.keys() & value.keys()):
+                raise InputError("--rung", "rungs that change different numbers", f"{field} twice in {names}")
+            changes[field] = before | value if field == "mismatch" else value
     return ROTORS.replace(**changes)
 
 

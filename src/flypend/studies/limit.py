@@ -27,18 +27,10 @@ Progress = Callable[[int, int], Any]
 
 @dataclass(frozen=True, eq=False)
 class Front:
-    """The least excursion of plans from one start against the time that they may take.
+    """The least excursion of plans from one start against the time that they may take."""
 
-    Parameters
-    ----------
-    durations : (n,)
-        Allowed times, s, from the shortest in which a plan was found.
-    plans : tuple of Plan
-        A plan for each; it may have failed.
-    """
-
-    durations: Array
-    plans: tuple[Plan, ...]
+    durations: Array  # (n,), allowed times, s, from the shortest in which a plan was found
+    plans: tuple[Plan, ...]  # one for each; it may have failed
 
     @property
     def excursion(self) -> Array:
@@ -72,26 +64,12 @@ def front(
 
 @dataclass(frozen=True, eq=False)
 class Strays:
-    """How far laws and plans stray from rest, the vehicle level, with the rod in directions all over the sphere.
+    """How far laws and plans stray from rest, the vehicle level, with the rod in directions all over the sphere."""
 
-    Parameters
-    ----------
-    cells : int
-        Rows and columns of each hemisphere's disc in Lambert's equal-area projection.
-    place : (n, 3)
-        Hemisphere (0 is the upper), row and column of each start.
-    starts : State
-        The starts, (n,).
-    by_law : dict
-        Excursions (n,), m, by the name of the law; NaN where it fails.
-    plans : PlanEnsemble
-        The plans.
-    """
-
-    cells: int
-    place: NDArray[np.int64]
-    starts: State
-    by_law: Mapping[str, Array]
+    cells: int  # rows and columns of each hemisphere's disc in Lambert's equal-area projection
+    place: NDArray[np.int64]  # (n, 3), hemisphere (0 is the upper), row and column of each start
+    starts: State  # (n,)
+    by_law: Mapping[str, Array]  # excursions (n,), m, by the name of the law; NaN where it fails
     plans: PlanEnsemble
 
     def disc(self, values: Array, part: int) -> Array:

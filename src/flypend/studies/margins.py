@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from threading import Event
-from typing import Any
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from flypend.flight.ensemble import fly_many
+from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight
@@ -23,6 +23,58 @@ LEAST_RATE = 0.9  # success rate at which a margin ends
 # A search stops once the boundary is known to this share of it, or to be below this share of its first step.
 RESOLUTION, LEAST_STEP = 0.12, 1 / 16
 SEARCHES = 2  # searches at a time: while one compiles in Python, the other does in LLVM, or flies
+Item = TypeVar("Item")
+Found = TypeVar("Found")
+
+
+class Count(NamedTuple):
+    """How many of `runs` flights succeed."""
+
+    successes: int
+    runs: int
+
+    @property
+    def rate(self) -> float:
+        """Share of the flights that succeed."""
+        return self.successes / self.runs
+
+    def describe(self) -> str:
+        """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
+        low, high = wilson(*self)
+        return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
+
+
+def for_each(
+    flight: Flight,
+    call: Callable[[Item], Found],
+    items: Sequence[Item],
+    progress: Callable[[int, int], Any],
+    stop: Callable[[], Any] = lambda: None,
+) -> list[Found]:
+    """Return what `call`, which flies variants of `flight` by `fly_beside`, returns for each of `items`.
+
+    Of flights with a kernel `SEARCHES` are made at a time. `progress` is called with (done, total). At the end, or if
+    anything is raised, `stop` tells calls that go on to return soon: they are waited for.
+    """
+    found: list[Found] = []
+    with threads(SEARCHES if has_kernel(flight) else 1) as pool:
+        try:
+            for job in [pool.submit(call, item) for item in items]:
+                found.append(result_of(job))
+                progress(len(found), len(items))
+        finally:
+            stop()
+    return found
+
+
+def fly_beside(flight: Flight) -> Ensemble:
+    """Fly `flight` beside others: a kernel in one thread, any other on all cores."""
+    return fly_many(flight, workers=1 if has_kernel(flight) else None)
+
+
+def count_of(flight: Flight) -> Count:
+    """Return how many runs of `flight` succeed, flown by `fly_beside`."""
+    return Count(int(fly_beside(flight).success.sum()), flight.runs)
 
 
 @dataclass(frozen=True)
@@ -73,30 +125,16 @@ class Margin:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of the world to vary.
+    """A number of the world to vary."""
 
-    Parameters
-    ----------
-    name, unit, nominal
-        As in `Margin`.
-    plant : callable
-        Value → plant in which the world has it.
-    value : callable
-        Signed distance from the nominal value, 0 at it → value.
-    step, most : float
-        First and largest distance.
-    both : bool
-        Whether distances below 0 are searched, too.
-    """
-
-    name: str
+    name: str  # as in `Margin`, like the next two
     unit: str
     nominal: float
-    plant: Callable[[float], Sampled]
-    value: Callable[[float], float]
-    step: float
+    plant: Callable[[float], Sampled]  # value → plant in which the world has it
+    value: Callable[[float], float]  # signed distance from the nominal value → value; the nominal one at 0
+    step: float  # first and largest distance
     most: float
-    both: bool = True
+    both: bool = True  # whether distances below 0 are searched, too
 
 
 def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
@@ -116,9 +154,9 @@ def quantities(vehicle: Vehicle, plant: Sampled) -> list[Quantity]:
             lambda d: 1e3 * (plant.delay + d), 0.1 * time, longest - plant.delay, both=False,
         ),
         _rotor_lag(plant, plant.true_vehicle(vehicle).rotor_lag, time),
-        Quantity("rod length", "times the believed", 1.0, mismatch(plant, {"rod_length": 1.0}), _factor, 0.1, 3.0),
+        Quantity("rod length", "times the believed", 1.0, mismatch(plant, "rod_length"), _factor, 0.1, 3.0),
         Quantity(
-            "mass", "times the believed", 1.0, mismatch(plant, {"mass": 1.0, "bob_mass": 1.0}), _factor, 0.2, 3.0
+            "mass", "times the believed", 1.0, mismatch(plant, "mass", "bob_mass"), _factor, 0.2, 3.0
         ),
         Quantity(
             "noise", "of the plant's" if noisy else "of motion capture's", least,
@@ -143,76 +181,63 @@ def search(
 
     `progress` is called with (name, done, total), in searches.
     """
-    believed = _succeed(flight)
+    believed, stop = count_of(flight).successes, Event()
     sides = [(quantity, sign) for quantity in wanted for sign in ((1.0, -1.0) if quantity.both else (1.0,))]
-    done, stop = 0, Event()
-    found: dict[tuple[str, float], dict[float, int]] = {}
+
+    def tell(done: int, total: int) -> None:
+        progress(f"margin of {sides[done - 1][0].name}", done, total)
+
     progress("margins", 0, len(sides))
-    with threads(SEARCHES if has_kernel(flight) else 1) as pool:
-        try:
-            jobs = [(quantity.name, sign, pool.submit(_side, flight, quantity, sign, stop)) for quantity, sign in sides]
-            for name, sign, job in jobs:
-                found[name, sign] = result_of(job)
-                progress(f"margin of {name}", done := done + 1, len(sides))
-        finally:
-            stop.set()
-    return {quantity.name: _margin(quantity, believed, found, flight.runs) for quantity in wanted}
+    found = for_each(flight, lambda side: _side(flight, *side, stop), sides, tell, stop.set)
+    margins, sides_found = {}, iter(found)
+    for quantity in wanted:
+        above = next(sides_found)
+        below = next(sides_found) if quantity.both else _Side({}, np.nan, False)
+        counts = {quantity.nominal: believed} | above.counts | below.counts
+        values = sorted(counts)
+        margins[quantity.name] = Margin(
+            quantity.name, quantity.unit, quantity.nominal, tuple(values), tuple(counts[value] for value in values),
+            flight.runs, below.end, above.end, below.is_open, above.is_open,
+        )  # fmt: skip
+    return margins
 
 
-def _side(flight: Flight, quantity: Quantity, sign: float, stop: Event) -> dict[float, int]:
-    """Successes by distance ≥ 0 on one side: from the first step out to where it fails, then in between.
+class _Side(NamedTuple):
+    """One side of a search: successes by value, the value at its end, and whether success has not dropped there."""
 
-    Ends early once `stop` is set.
-    """
+    counts: dict[float, int]
+    end: float
+    is_open: bool
+
+
+def _side(flight: Flight, quantity: Quantity, sign: float, stop: Event) -> _Side:
+    """Search from the first step out to where success drops, then in between; no further once `stop` is set."""
     counts: dict[float, int] = {}
-    good, bad, distance = 0.0, np.inf, quantity.step
+    good, bad, distance = 0.0, np.inf, min(quantity.step, quantity.most)
     while bad - good > RESOLUTION * good and good < quantity.most and bad > LEAST_STEP * quantity.step:
         if stop.is_set():
             break
-        counts[distance] = _succeed(flight.through(quantity.plant(quantity.value(sign * distance))))
-        if counts[distance] >= LEAST_RATE * flight.runs:
+        value = quantity.value(sign * distance)
+        counts[value] = count_of(flight.through(quantity.plant(value))).successes
+        if counts[value] >= LEAST_RATE * flight.runs:
             good = distance
         else:
             bad = distance
         distance = min(2 * distance, quantity.most) if np.isinf(bad) else (good + bad) / 2
-    return counts
-
-
-def _succeed(flight: Flight) -> int:
-    return int(fly_many(flight, workers=1 if has_kernel(flight) else None).success.sum())
-
-
-def _margin(
-    quantity: Quantity, believed: int, found: Mapping[tuple[str, float], Mapping[float, int]], runs: int
-) -> Margin:
-    """Gather the sides of a search; `believed` succeed at the nominal value."""
-    values = {quantity.nominal: believed}
-    ends, opened = {1.0: np.nan, -1.0: np.nan}, {1.0: False, -1.0: False}
-    for sign in (1.0, -1.0) if quantity.both else (1.0,):
-        counts = found[quantity.name, sign]
-        bad = min((d for d, count in counts.items() if count < LEAST_RATE * runs), default=np.inf)
-        good = max((d for d, count in counts.items() if count >= LEAST_RATE * runs and d < bad), default=0.0)
-        ends[sign], opened[sign] = quantity.value(sign * good), bool(np.isinf(bad))
-        values |= {quantity.value(sign * d): count for d, count in counts.items()}
-    ordered = sorted(values)
-    return Margin(
-        quantity.name, quantity.unit, quantity.nominal, tuple(ordered), tuple(values[value] for value in ordered), runs,
-        ends[-1.0], ends[1.0], opened[-1.0], opened[1.0],
-    )  # fmt: skip
+    return _Side(counts, quantity.value(sign * good), bool(np.isinf(bad)))
 
 
 def _factor(distance: float) -> float:
-    """Return 1 + d, or 1/(1 + |d|) for d < 0."""
+    """1 + d, or 1/(1 + |d|) for d < 0."""
     return 1 + distance if distance >= 0 else 1 / (1 - distance)
 
 
-def mismatch(plant: Sampled, powers: Mapping[str, float]) -> Callable[[float], Sampled]:
-    """Return factor → `plant` whose mismatch of each name in `powers` is multiplied by factor to that power."""
+def mismatch(plant: Sampled, *names: str) -> Callable[[float], Sampled]:
+    """Return factor → `plant` whose mismatch of each of `names` is multiplied by that factor."""
 
     def changed(factor: float) -> Sampled:
-        known = plant.mismatch
-        more = {name: known.get(name, 1.0) * factor**power for name, power in powers.items()}
-        return plant.replace(mismatch={**known, **more})
+        more = {name: plant.mismatch.get(name, 1.0) * factor for name in names}
+        return plant.replace(mismatch={**plant.mismatch, **more})
 
     return changed
 
@@ -221,8 +246,5 @@ def _noisier(plant: Sampled, factor: float) -> Sampled:
     """`plant` with its noise, or that of motion capture, times `factor`."""
     if plant.sensors is not None:
         return plant.replace(sensors=plant.sensors.noisier(factor))
-    return plant.replace(noise=_scale(plant.noise or MOTION_CAPTURE, factor))
-
-
-def _scale(noise: Noise, factor: float) -> Noise:
-    return Noise(**{name: factor * value for name, value in vars(noise).items()})
+    noise = vars(plant.noise or MOTION_CAPTURE)
+    return plant.replace(noise=Noise(**{name: factor * value for name, value in noise.items()}))

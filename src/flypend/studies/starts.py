@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from flypend import errors
-from flypend.files.memory import check_fits
+from flypend.files.reading import check_fits
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names

@@ -22,8 +22,7 @@ from flypend.flight.tasks import task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
-from flypend.signals.waiting import result_of, threads
-from flypend.studies.margins import SEARCHES, mismatch
+from flypend.studies.margins import Count, count_of, for_each, mismatch
 
 DURATION, KNOCKS = 60.0, 15  # s
 UP = 0.95  # the rod counts as up while its bob is higher than this share of its length
@@ -50,7 +49,7 @@ class Trial:
     knock : float
         Speed that one impulse gives to the bob or the vehicle if it were free, m/s.
     sweeps : dict
-        By number of the model: factor → (successes, runs).
+        By number of the model: factor → successes and runs.
     """
 
     vehicle: Vehicle
@@ -59,7 +58,7 @@ class Trial:
     uptime: NDArray[np.float64]
     standing: NDArray[np.bool_]
     knock: float
-    sweeps: Mapping[str, Mapping[float, tuple[int, int]]]
+    sweeps: Mapping[str, Mapping[float, Count]]
 
     def __repr__(self) -> str:
         """Return uptime and sweeps, a line each."""
@@ -68,28 +67,28 @@ class Trial:
         lines.append(f"  up {100 * median:.1f} % of the time (median; 5 % of flights less than {100 * low:.1f} %)")
         lines.append(f"  upright at the end: {int(self.standing.sum())} of {len(self.uptime)}")
         for name, row in self.sweeps.items():
-            cells = ", ".join(f"×{factor:g} {100 * count / runs:.0f} %" for factor, (count, runs) in row.items())
+            cells = ", ".join(f"×{factor:g} {100 * count.rate:.0f} %" for factor, count in row.items())
             lines.append(f"  {name}: {cells}")
         return "\n".join(lines) + ">"
 
     @property
     def robustness(self) -> float:
         """The mean success rate over all sweeps."""
-        return float(np.mean([count / runs for row in self.sweeps.values() for count, runs in row.values()]))
+        return float(np.mean([count.rate for row in self.sweeps.values() for count in row.values()]))
 
     def to_dict(self) -> dict[str, Any]:
         """Return uptimes and sweeps as plain numbers, lists and dicts, with Wilson intervals."""
-        stands = int(self.standing.sum())
-        low, high = wilson(stands, len(self.uptime))
+        stands = Count(int(self.standing.sum()), len(self.uptime))
+        low, high = wilson(*stands)
         return {
             "vehicle": self.vehicle.to_dict(),
             "law": self.law,
             "knock": self.knock,
             "uptime": self.uptime.tolist(),
-            "standing": {"successes": stands, "runs": len(self.uptime), "wilson_low": low, "wilson_high": high},
+            "standing": {**stands._asdict(), "wilson_low": low, "wilson_high": high},
             "robustness": self.robustness,
             "sweeps": {
-                name: [{"factor": factor, "successes": count, "runs": runs} for factor, (count, runs) in row.items()]
+                name: [{"factor": factor, **count._asdict()} for factor, count in row.items()]
                 for name, row in self.sweeps.items()
             },
         }
@@ -145,27 +144,30 @@ def trial(
     knocked = fly_many(sampled, workers=workers)
     progress("knocks", 1, 1)
     high = is_up(knocked)
+    worlds = swept(vehicle, world)
+    cells = [(name, factor) for name in worlds for factor in FACTORS]
+    counts = for_each(
+        flight, lambda cell: count_of(flight.through(worlds[cell[0]](cell[1]))), cells,
+        lambda done, total: progress(f"sweep of {cells[done - 1][0]}", done, total),
+    )  # fmt: skip
+    sweeps: dict[str, dict[float, Count]] = {name: {} for name in worlds}
+    for (name, factor), count in zip(cells, counts, strict=True):
+        sweeps[name][factor] = count
     return Trial(
         vehicle=vehicle, law=bound.name, knocked=knocked, uptime=high.mean(axis=1),
         standing=high[:, -round(DURATION / KNOCKS / SAMPLE) :].mean(axis=1) > 0.5, knock=speed,
-        sweeps=_swept(flight, swept(vehicle, world), progress),
+        sweeps=sweeps,
     )  # fmt: skip
 
 
 def swept(vehicle: Vehicle, plant: Sampled) -> dict[str, Callable[[float], Sampled]]:
     """Return factor → plant, for each number of the model that is not zero."""
-    names = {
-        "mass": ("mass",), "bob_mass": ("bob_mass",), "rod_length": ("rod_length",), "rod_inertia": ("rod_inertia",),
-        "inertia": ("inertia",), "arm": ("rotor_positions",), "drag_ratio": ("drag_ratio",),
-    }  # fmt: skip
-    found = {
-        name: mismatch(plant, dict.fromkeys(fields, 1.0))
-        for name, fields in names.items()
-        if name != "rod_inertia" or vehicle.rod_inertia > 0
-    }
+    heavy = ("rod_inertia",) if vehicle.rod_inertia > 0 else ()
+    names = ("mass", "bob_mass", "rod_length", *heavy, "inertia", "arm", "drag_ratio")
+    found = {name: mismatch(plant, {"arm": "rotor_positions"}.get(name, name)) for name in names}
     found["thrust"] = lambda factor: plant.replace(strength=factor * np.asarray(plant.strength))
     if plant.true_vehicle(vehicle).rotor_lag > 0:
-        found["rotor_lag"] = mismatch(plant, {"rotor_lag": 1.0})
+        found["rotor_lag"] = mismatch(plant, "rotor_lag")
     if plant.delay > 0:
         found["delay"] = lambda factor: plant.replace(delay=plant.delay * factor)
     return found
@@ -182,22 +184,3 @@ def is_up(knocked: Ensemble) -> NDArray[np.bool_]:
     assert knocked.samples is not None
     up = 1.0 if knocked.e3 == "up" else -1.0
     return np.asarray(up * np.nan_to_num(knocked.samples.y[..., 2], nan=-up) > UP)
-
-
-def _swept(
-    flight: Flight, worlds: Mapping[str, Callable[[float], Sampled]], progress: Callable[[str, int, int], Any]
-) -> dict[str, dict[float, tuple[int, int]]]:
-    compiled = has_kernel(flight)
-    cells = [(name, factor) for name in worlds for factor in FACTORS]
-
-    def fly(cell: tuple[str, float]) -> int:
-        flown = fly_many(flight.through(worlds[cell[0]](cell[1])), workers=1 if compiled else None)
-        return int(flown.success.sum())
-
-    found: dict[str, dict[float, tuple[int, int]]] = {name: {} for name in worlds}
-    with threads(SEARCHES if compiled else 1) as pool:
-        calls = [pool.submit(fly, cell) for cell in cells]
-        for done, (cell, call) in enumerate(zip(cells, calls, strict=True), 1):
-            found[cell[0]][cell[1]] = (result_of(call), flight.runs)
-            progress(f"sweep of {cell[0]}", done, len(cells))
-    return found

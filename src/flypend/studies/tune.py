@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
@@ -9,17 +11,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from flypend import errors, signals
 from flypend.errors import InputError
+from flypend.files.reading import parse_json, read_bytes
+from flypend.files.schema import Field, check_arrays
 from flypend.flight.ensemble import fly_many
 from flypend.flight.metrics import wilson
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.bands import check_bands
+from flypend.settings.runfile import record_at
 from flypend.studies.bands import worlds_within
-from flypend.studies.costs import Costs
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import program_digest
 from flypend.studies.sweep.design import design
@@ -35,6 +40,9 @@ SPAN = 1.6
 LATE, FAR = 2.0, 100.0
 MOST_REPORTED = 20_000
 DRAWN, MOST_DRAWN = 32, 64  # vehicles; gains tuned on eight fit those eight, and are no better on others
+# The file of the costs: this word, and bytes, of which a generation takes some 300.
+KIND, MOST_BYTES = "flypend tune 1", 2**26
+GENERATION = {"costs": Field(("point",))}
 
 
 @errors.named_arguments
@@ -67,10 +75,9 @@ class Objective:
         """Return the cost of each run (n,) of `duration` s, from the fields of `Metrics` in `columns`."""
         success = columns["success"]
         settling = np.where(success, columns["settling"], LATE * duration) / duration
-        excursion = np.minimum(np.nan_to_num(columns["excursion"], nan=FAR, posinf=FAR), FAR)
-        effort = np.nan_to_num(columns["effort"], nan=FAR, posinf=FAR)
+        excursion, effort = (np.fmin(columns[name], FAR) for name in ("excursion", "effort"))  # FAR for NaN, too
         whole = self.failure * ~success + self.settling * settling + self.excursion * excursion
-        return whole + self.effort * np.minimum(effort, FAR)
+        return whole + self.effort * effort
 
 
 @errors.named_arguments
@@ -144,10 +151,10 @@ def tune(
     """
     errors.require("cma", extra="studies", for_="tune")
     made = study if isinstance(study, Study) else study_from(study)
-    task = _task(made)
+    task = _Task(made)
     search = _search(task)
     bands = made.flight.vehicle.bands if task.bands else ""
-    kept = Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}{bands}")
+    kept = _Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}{bands}")
     history: list[dict[str, Any]] = []
     best, least = task.start, np.inf
     progress(min(kept.generations, task.generations), task.generations)
@@ -171,21 +178,96 @@ def tune(
     return Tuned(made, gains, task.report(own, workers), task.report(gains, workers), history)
 
 
-@dataclass(frozen=True, eq=False)
-class _Task:
-    """A tuning problem. A point of the unit cube maps to gains, evenly in the logarithm."""
+class _Costs:
+    """The costs of a search by generation, in a file from which it resumes if it was interrupted; None keeps none.
 
-    study: Study
-    names: tuple[str, ...]
-    low: Any
-    high: Any
-    objective: Objective
-    bands: int
-    runs: int
-    generations: int
-    population: int | None
-    step: float
-    seed: int
+    The points of a generation follow from the seed and from earlier costs, so only costs are kept. `identity` is all
+    that the search depends on. Raises InputError if the file belongs to another search or cannot be read.
+    """
+
+    def __init__(self, path: Path | None, identity: str) -> None:
+        self._path = path
+        self._head = f"{KIND} {hashlib.sha256(identity.encode()).hexdigest()}"
+        self._known = [] if path is None else self._read(path)
+
+    def _read(self, path: Path) -> list[NDArray[np.float64]]:
+        try:
+            head, *lines = read_bytes(path, MOST_BYTES).decode("utf-8").split("\n")
+        except FileNotFoundError:
+            return []
+        except InputError:
+            raise
+        except (OSError, ValueError) as error:
+            raise InputError(str(path), "a file of costs that can be read", error) from None
+        if head != self._head:
+            wanted = "the costs of this search (remove the file to start over)"
+            raise InputError(str(path), wanted, "those of another study, or another file")
+        found: list[NDArray[np.float64]] = []
+        for line in lines:  # up to the first one that was not written to its end, or holds other than costs
+            try:
+                values, check = parse_json(line)
+                costs = check_arrays(GENERATION, {"costs": values})["costs"]
+            except (ValueError, TypeError):
+                break
+            if check != _check(costs):
+                break
+            found.append(costs)
+        return found
+
+    @property
+    def generations(self) -> int:
+        """Number of generations that are known."""
+        return len(self._known)
+
+    def of(self, generation: int, size: int) -> NDArray[np.float64] | None:
+        """Return the costs (size,) of a generation; None if they are not known."""
+        known = self._known[generation] if generation < len(self._known) else None
+        return known if known is not None and known.shape == (size,) else None
+
+    def keep(self, generation: int, costs: NDArray[np.float64]) -> None:
+        """Keep the costs of a generation. Raises InputError if the file cannot be written."""
+        self._known = [*self._known[:generation], costs]
+        if self._path is None:
+            return
+        lines = [self._head, *(json.dumps([each.tolist(), _check(each)]) for each in self._known)]
+        partial = self._path.with_name(f".{self._path.name}.partial")
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            partial.replace(self._path)
+        except OSError as error:
+            wanted = "a file that can be written (rerun to resume)"
+            raise InputError(str(self._path), wanted, error.strerror or error) from None
+
+
+def _check(costs: NDArray[np.float64]) -> str:
+    return hashlib.sha256(costs.tobytes()).hexdigest()[:16]
+
+
+class _Task:
+    """What the table `tune` of a study asks for. A point of the unit cube maps to gains, evenly in the logarithm."""
+
+    def __init__(self, study: Study) -> None:
+        table, self.study = study.tune, study
+        errors.only_known("tune", table, KEYS)
+        if study.grid or study.gains:
+            raise InputError("vary", "starts that are drawn, where gains are tuned", "a grid, or gains")
+        if study.sampling == "latin":
+            raise InputError("sampling", "'uniform' or 'sobol', where gains are tuned", "'latin'")
+        limits = _limits(study)
+        self.names, (self.low, self.high) = tuple(limits), np.array(list(limits.values())).T
+        self.objective = record_at(table, "objective", Objective, "tune.objective")
+        self.bands = errors.integer("tune.bands", table.get("bands", 0), 0, MOST_DRAWN)
+        if self.bands and not isinstance(study.flight.plant, Sampled):
+            raise InputError("tune.bands", "a sampled plant, such as rotors", "the ideal plant")
+        if self.bands:
+            check_bands(study.flight.vehicle)
+        self.runs = errors.integer("tune.runs", table.get("runs", 200), 1)
+        self.generations = errors.integer("tune.generations", table.get("generations", 30), 1)
+        population = table.get("population")
+        self.population = None if population is None else errors.integer("tune.population", population, 2)
+        self.step = errors.number("tune.step", table.get("step", 0.2), above=0)
+        self.seed = errors.integer("tune.seed", table.get("seed", 1), 1)
 
     @property
     def start(self) -> Any:
@@ -224,7 +306,11 @@ class _Task:
 
     def _flown(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
         """Metrics (k, runs) of `runs` runs under each of k rows of gains `values`, on each world in turn."""
-        flight, worlds = self.study.flight, self._worlds(stream)
+        flight = self.study.flight
+        worlds: list[AnyPlant] = [flight.plant]
+        if self.bands and isinstance(flight.plant, Sampled):  # those of vehicles drawn, others for the report
+            seed = 2 * self.seed + (stream == cube.REPORTED)
+            worlds = list(worlds_within(flight.vehicle, flight.plant, seed, self.bands).values())
         if stream == cube.TUNED:  # its own noise, too
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
         starts = design(self.study, 0, runs, stream).packed
@@ -235,47 +321,6 @@ class _Task:
             flown = fly_many(flight.replace(starts=packed, gains=gains, plant=world), workers=workers).columns
             found.append({name: column.reshape(len(values), len(own)) for name, column in flown.items()})
         return {name: np.concatenate([one[name] for one in found], axis=1) for name in found[0]}
-
-    def _worlds(self, stream: int) -> list[AnyPlant]:
-        """The study's plant, and with bands those of vehicles drawn, others for the report."""
-        flight = self.study.flight
-        if not self.bands or not isinstance(flight.plant, Sampled):
-            return [flight.plant]
-        seed = 2 * self.seed + (stream == cube.REPORTED)
-        return list(worlds_within(flight.vehicle, flight.plant, seed, self.bands).values())
-
-
-def _task(made: Study) -> _Task:
-    table = made.tune
-    errors.only_known("tune", table, KEYS)
-    if made.grid or made.gains:
-        raise InputError("vary", "starts that are drawn, where gains are tuned", "a grid, or gains")
-    if made.sampling == "latin":
-        raise InputError("sampling", "'uniform' or 'sobol', where gains are tuned", "'latin'")
-    limits = _limits(made)
-    weights = table.get("objective", {})
-    if not isinstance(weights, Mapping):
-        raise InputError("tune.objective", "a table of weights", repr(weights))
-    errors.only_known("tune.objective", weights, [entry.name for entry in fields(Objective)])
-    population = table.get("population")
-    bands = errors.integer("tune.bands", table.get("bands", 0), 0, MOST_DRAWN)
-    if bands and not isinstance(made.flight.plant, Sampled):
-        raise InputError("tune.bands", "a sampled plant, such as rotors", "the ideal plant")
-    if bands:
-        check_bands(made.flight.vehicle)
-    return _Task(
-        study=made,
-        names=tuple(limits),
-        low=np.array([low for low, _ in limits.values()]),
-        high=np.array([high for _, high in limits.values()]),
-        objective=Objective(**weights),
-        bands=bands,
-        runs=errors.integer("tune.runs", table.get("runs", 200), 1),
-        generations=errors.integer("tune.generations", table.get("generations", 30), 1),
-        population=None if population is None else errors.integer("tune.population", population, 2),
-        step=errors.number("tune.step", table.get("step", 0.2), above=0),
-        seed=errors.integer("tune.seed", table.get("seed", 1), 1),
-    )
 
 
 def _limits(made: Study) -> dict[str, tuple[float, float]]:

@@ -11,6 +11,7 @@ import numpy as np
 from flypend import errors
 from flypend.errors import InputError
 from flypend.laws import BoundLaw, Controller
+from flypend.settings.runfile import table_at
 
 # Dimensions of the sample: y uniform on S², R on SO(3), vectors in balls, y_dot in a tangent disc. Scalars have ranges.
 UNIFORM = {"y": 2, "R": 3}
@@ -22,31 +23,15 @@ MOST_POINTS = 100_000
 
 @dataclass(frozen=True)
 class Axis:
-    """One quantity that varies.
+    """One quantity that varies: sampled over a range, or on a grid."""
 
-    Parameters
-    ----------
-    group : "start", "gains" or "plant"
-        What it belongs to.
-    name : str
-        A field of the start or an angle, a gain, or a plant parameter ("mismatch.mass").
-    dimensions : int
-        Dimensions of the sample that it uses; 0 on a grid.
-    low, high : float
-        The range; for a ball or a disc, 0 and the radius.
-    log : bool
-        Whether the range is logarithmic.
-    values : tuple of float
-        Grid points; empty if sampled.
-    """
-
-    group: str
-    name: str
-    dimensions: int
-    low: float = 0.0
+    group: str  # what it belongs to: "start", "gains" or "plant"
+    name: str  # a field of the start or an angle, a gain, or a plant parameter ("mismatch.mass")
+    dimensions: int  # of the sample that it uses; 0 on a grid
+    low: float = 0.0  # the range; for a ball or a disc, 0 and the radius
     high: float = 0.0
-    log: bool = False
-    values: tuple[float, ...] = ()
+    log: bool = False  # whether the range is logarithmic
+    values: tuple[float, ...] = ()  # grid points; empty if sampled
 
     def at(self, u: Any) -> Any:
         """Return the values at the fractions u (n,) of the range."""
@@ -62,14 +47,14 @@ def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> t
     """
     errors.only_known("vary", table, ("start", "gains", "plant"))
     found = []
-    for name, value in _table(table, "plant").items():
+    plants, gains, start = (table_at(table, key, f"vary.{key}") for key in ("plant", "gains", "start"))
+    for name, value in plants.items():
         found += _plant_axes(name, value, plant)
-    for name, value in _table(table, "gains").items():
+    for name, value in gains.items():
         errors.only_known("vary.gains", [name], law.numbers)
         axis = _range("gains", name, value)
         law.check_gain(name, axis.values or (axis.low, axis.high), "vary.gains")
         found.append(axis)
-    start = _table(table, "start")
     errors.only_known("vary.start", start, (*UNIFORM, *BALLS, *ANGLES))
     for two, one in ((("tilt", "azimuth"), "y"), (("rate", "heading"), "y_dot")):
         if one in start and set(two) & set(start):
@@ -78,13 +63,6 @@ def axes(table: Mapping[str, Any], law: BoundLaw | Controller, plant: bool) -> t
         raise InputError("vary.start", "rate and heading with tilt and azimuth", "rate or heading with y")
     found += [_start_axis(name, value) for name, value in start.items()]
     return tuple(found)
-
-
-def _table(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    value = table.get(key, {})
-    if not isinstance(value, Mapping):
-        raise InputError(f"vary.{key}", "a table", repr(value))
-    return value
 
 
 def _start_axis(name: str, value: Any) -> Axis:
@@ -131,7 +109,8 @@ def _range(group: str, name: str, value: Any) -> Axis:
         if len(value) > 1:
             raise InputError(field, "values alone", repr(dict(value)))
         listed = errors.array(f"{field}.values", value["values"], (None,))
-        _check_points(field, len(listed), 1)
+        if not 1 <= len(listed) <= MOST_POINTS:
+            raise InputError(field, f"1 to {MOST_POINTS} points", len(listed))
         return Axis(group, name, 0, values=tuple(listed.tolist()))
     for key in ("from", "to"):
         if key not in value:
@@ -143,12 +122,6 @@ def _range(group: str, name: str, value: Any) -> Axis:
         raise InputError(field, "a range of finite length", f"{low:g} to {high:g}")
     if "points" not in value:
         return Axis(group, name, 1, low, high, log)
-    points = errors.integer(f"{field}.points", value["points"], 2)
-    _check_points(field, points, 2)
+    points = errors.integer(f"{field}.points", value["points"], 2, MOST_POINTS)
     spaced = np.geomspace(low, high, points) if log else np.linspace(low, high, points)
     return Axis(group, name, 0, values=tuple(spaced.tolist()))
-
-
-def _check_points(field: str, points: int, least: int) -> None:
-    if not least <= points <= MOST_POINTS:
-        raise InputError(f"{field}", f"{least} to {MOST_POINTS} points", points)

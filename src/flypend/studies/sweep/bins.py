@@ -27,23 +27,13 @@ EDGE = float(np.sqrt(2))
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Statistics of the runs in each of n cells.
+    """Statistics of the runs in each of n cells."""
 
-    Parameters
-    ----------
-    runs, successes : (n,)
-        Counts of runs.
-    settling, excursion : (n,)
-        Mean settling time over the successes (s) and mean excursion over all runs (m); NaN if there are none.
-    causes : (k, n)
-        Counts of runs by cause, in the order of `flypend.studies.sweep.chunk.CAUSES`.
-    """
-
-    runs: Any
-    successes: Any
-    settling: Any
-    excursion: Any
-    causes: Any
+    runs: Any  # (n,), their number
+    successes: Any  # (n,)
+    settling: Any  # (n,), mean settling time over the successes, s; NaN if there are none
+    excursion: Any  # (n,), mean excursion over all runs, m; NaN if there are none
+    causes: Any  # (k, n), number of runs by cause, in the order of `flypend.studies.sweep.chunk.CAUSES`
 
     @cached_property
     def rate(self) -> Any:
@@ -59,21 +49,11 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """A grid of cells, and the map from the columns of a chunk to cells.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Shape of the grid.
-    columns : tuple of str
-        Columns that `place` needs.
-    place : callable
-        Returns, from the columns, the flat index of each run's cell (n,).
-    """
+    """A grid of cells, and the map from the columns of a chunk to cells."""
 
     shape: tuple[int, ...]
-    columns: tuple[str, ...]
-    place: Callable[[dict[str, Any]], Any]
+    columns: tuple[str, ...]  # those that `place` needs
+    place: Callable[[dict[str, Any]], Any]  # columns → the flat index of each run's cell (n,)
 
 
 class Runs:
@@ -90,9 +70,7 @@ class Runs:
     @property
     def number(self) -> int:
         """Number of runs flown."""
-        size, last = self.study.chunk, self.study.chunks - 1
-        short = self.study.runs - size * last if last in self._numbers else size
-        return size * (len(self._numbers) - 1) + short
+        return sum(len(self.study.rows(number)) for number in self._numbers)
 
     def gather(self, grids: Sequence[Grid]) -> list[Cells]:
         """Return the statistics of the cells of each of `grids`, in one pass over the store.

@@ -49,8 +49,8 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
     """
     with building:
         made = _study_of(text, program)
-    first = number * made.chunk
-    return fly_range(made, first, min(first + made.chunk, made.runs))
+    rows = made.rows(number)
+    return fly_range(made, rows.start, rows.stop)
 
 
 def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
@@ -72,7 +72,20 @@ def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
 
 def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:
     """Return the runs `drawn` as requests, one per stretch of runs on one plant; `first` is the first run's index."""
-    return [_flight(study, drawn, part, first) for part in _by_plant(study, drawn)]
+    number = drawn.cells // study.plant_cells.step  # of the plant; they are outermost in the grid
+    ends = [0, *(np.flatnonzero(np.diff(number)) + 1).tolist(), len(number)]
+    found = []
+    for begin, end in pairwise(ends):
+        plant, part = study.plant_at(int(drawn.cells[begin])), slice(begin, end)
+        seed = plant.seed if isinstance(plant, Sampled) else 0
+        flight = study.flight.replace(
+            starts=State.trusted(drawn.packed[part]),
+            gains={name: value[part] for name, value in drawn.gains.items()},
+            plant=plant,
+            seed=seed + first + begin,  # the noise of a run does not depend on the chunk
+        )
+        found.append(flight)
+    return found
 
 
 def program_digest(study: Study) -> str:
@@ -81,8 +94,7 @@ def program_digest(study: Study) -> str:
     A callable law, which is not compiled, enters by the text of its file.
     """
     digest = hashlib.sha256()
-    cells = int(np.prod(study.shape, dtype=object))
-    for cell in _plant_cells(study, cells):
+    for cell in study.plant_cells:
         run = cell * study.samples
         (flight,) = flights(study, design(study, run, run + 1))
         if isinstance(flight.law, Controller):
@@ -93,29 +105,3 @@ def program_digest(study: Study) -> str:
             digest.update(plant_numbers(flight.loop).tobytes())
         digest.update(kernel.key.encode())
     return digest.hexdigest()
-
-
-def _plant_cells(study: Study, cells: int) -> range:
-    """The first cell of each plant in the grid."""
-    plants = int(np.prod([len(axis.values) for axis in study.grid if axis.group == "plant"], dtype=object))
-    return range(0, cells, cells // plants)
-
-
-def _by_plant(study: Study, drawn: Design) -> list[slice]:
-    """Stretches of runs on one plant; they are consecutive because plants are outermost in the grid."""
-    cells = int(np.prod(study.shape, dtype=object))
-    plant = drawn.cells // _plant_cells(study, cells).step
-    ends = [0, *(np.flatnonzero(np.diff(plant)) + 1).tolist(), len(plant)]
-    return [slice(a, b) for a, b in pairwise(ends)]
-
-
-def _flight(study: Study, drawn: Design, part: slice, first: int) -> Flight:
-    """Return the flights of the `part` of a design whose run number `first` comes first."""
-    plant = study.plant_at(int(drawn.cells[part.start]))
-    seed = plant.seed if isinstance(plant, Sampled) else 0
-    return study.flight.replace(
-        starts=State.trusted(drawn.packed[part]),
-        gains={name: value[part] for name, value in drawn.gains.items()},
-        plant=plant,
-        seed=seed + first + part.start,  # the noise of a run does not depend on the chunk
-    )

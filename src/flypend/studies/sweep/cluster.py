@@ -28,12 +28,8 @@ def fly_chunks(
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
     """Fly chunks `numbers` of a study on the cluster of a Dask `scheduler`, and yield each with its columns.
 
-    `text` is the study as TOML, `program` the digest of its program.
-
-    Raises
-    ------
-    InputError
-        If the scheduler does not answer or is lost, or if workers die repeatedly or compile other equations.
+    `text` is the study as TOML, `program` the digest of its program. Raises InputError if the scheduler does not answer
+    or is lost, or if workers die repeatedly or compile other equations.
     """
     import distributed
 

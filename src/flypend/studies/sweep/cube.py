@@ -28,21 +28,8 @@ MOST_SOBOL = 2**30
 def members(sampling: str, seed: int, stream: int, size: int, dimensions: int, first: int, last: int) -> Any:
     """Return members `first` to `last` (exclusive) of a sample: points (last − first, dimensions) in [0, 1)ⁿ.
 
-    Parameters
-    ----------
-    sampling : "uniform", "sobol" or "latin"
-        Independent points; a scrambled Sobol sequence; a Latin hypercube.
-    seed, stream : int
-        The sample; streams of one seed are independent.
-    size, dimensions : int
-        Size and dimensions of the whole sample.
-    first, last : int
-        Range of members.
-
-    Raises
-    ------
-    InputError
-        If the sample is too large for its kind.
+    The whole sample has `size` points: independent ones ("uniform"), a scrambled Sobol sequence ("sobol") or a Latin
+    hypercube ("latin"). Streams of one seed are independent. Raises InputError if it is too large for its kind.
     """
     if dimensions == 0:
         return np.zeros((last - first, 0))

@@ -3,37 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import prod
 from typing import Any
 
 import numpy as np
 
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.model.state import FLIP, SHAPES, SIZE
+from flypend.model.state import FLIP, SHAPES
 from flypend.studies.sweep import cube
-from flypend.studies.sweep.axes import ANGLES, Axis
+from flypend.studies.sweep.axes import ANGLES
 from flypend.studies.sweep.study import Study
 
 
 @dataclass(frozen=True, eq=False)
 class Design:
-    """The starts, gains and grid cells of a range of runs.
+    """The starts, gains and grid cells of a range of n runs."""
 
-    Parameters
-    ----------
-    packed : (n, 24)
-        Starts in the frame of the law.
-    gains : dict
-        The gains that vary, name to (n,).
-    cells : (n,)
-        Index of the cell of the grid.
-    columns : dict
-        The varied quantities as stored, name to (n,) or (n, k).
-    """
-
-    packed: Any
-    gains: dict[str, Any]
-    cells: Any
-    columns: dict[str, Any]
+    packed: Any  # (n, 24), starts in the frame of the law
+    gains: dict[str, Any]  # those that vary, name → (n,)
+    cells: Any  # (n,), index of the cell of the grid
+    columns: dict[str, Any]  # the varied quantities as stored, name → (n,) or (n, k)
 
 
 def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> Design:
@@ -55,7 +44,12 @@ def design(study: Study, first: int, last: int, stream: int = cube.REPORTED) -> 
         if group != "start":
             columns[f"{group}.{name}"] = value
     gains = {name: value for (group, name), value in numbers.items() if group == "gains"}
-    return Design(_pack(study, fields, len(index)), gains, cells, columns)
+    runs, fixed = len(index), study.flight.starts
+    parts = [
+        np.broadcast_to(fields.get(name, getattr(fixed, name)), (runs, *shape)).reshape(runs, prod(shape))
+        for name, shape in SHAPES.items()
+    ]
+    return Design(np.concatenate(parts, axis=1), gains, cells, columns)
 
 
 def _draw(study: Study, members: Any, stream: int) -> Any:
@@ -82,41 +76,18 @@ def _starts(study: Study, numbers: dict[tuple[str, str], Any], runs: int) -> tup
         fields["R"] = rotation_from_quat_xyzw(columns["quat_xyzw"])
     if "y" in given:
         fields["y"] = cube.on_sphere(given["y"][1])
-    if set(ANGLES) & set(given):
-        _by_angles(study, given, fields, columns, runs)
+    if angles := {name: given[name][1] for name in ANGLES if name in given}:
+        flip = FLIP if study.law.e3 == "down" else np.eye(3)
+        own = flip @ study.flight.starts.y
+        default = {"tilt": np.arctan2(np.hypot(own[0], own[1]), own[2]), "azimuth": np.arctan2(own[1], own[0])}
+        y, y_dot = cube.tilt_rods(*(angles.get(name, np.full(runs, default.get(name, 0.0))) for name in ANGLES))
+        columns |= angles
+        fields["y"] = y @ flip
+        if {"rate", "heading"} & angles.keys():
+            fields["y_dot"] = y_dot @ flip
     if "y_dot" in given:
         y = fields.get("y", np.broadcast_to(study.flight.starts.y, (runs, 3)))
         axis, u = given["y_dot"]
         fields["y_dot"] = cube.in_disc(u, y, axis.high)
     columns |= {name: fields[name] for name in ("y", "y_dot") if name in fields}
     return fields, columns
-
-
-def _by_angles(
-    study: Study, given: dict[str, tuple[Axis, Any]], fields: dict[str, Any], columns: dict[str, Any], runs: int
-) -> None:
-    """Put the directions of the rod that axes for its angles give (runs,), rad, into `fields` and `columns`."""
-    flip = FLIP if study.law.e3 == "down" else np.eye(3)
-    own = flip @ study.flight.starts.y
-    default = {"tilt": np.arctan2(np.hypot(own[0], own[1]), own[2]), "azimuth": np.arctan2(own[1], own[0])}
-    angles = []
-    for name in ANGLES:
-        value = given[name][1] if name in given else np.full(runs, default.get(name, 0.0))
-        columns |= {name: value} if name in given else {}
-        angles.append(value)
-    y, y_dot = cube.tilt_rods(*angles)
-    fields["y"] = y @ flip
-    if {"rate", "heading"} & set(given):
-        fields["y_dot"] = y_dot @ flip
-
-
-def _pack(study: Study, fields: dict[str, Any], runs: int) -> Any:
-    packed = np.empty((runs, SIZE))
-    packed[:] = study.flight.starts.packed()
-    place = 0
-    for name, shape in SHAPES.items():
-        width = int(np.prod(shape))
-        if name in fields:
-            packed[:, place : place + width] = fields[name].reshape(runs, width)
-        place += width
-    return packed

@@ -23,15 +23,7 @@ from flypend.studies.sweep.study import Study
 
 MARKS = "whole"
 LARGEST_HEADER = 16  # bytes that Blosc adds to what it cannot compress
-ROWS = {
-    "y": "axis",
-    "y_dot": "axis",
-    "x": "axis",
-    "x_dot": "axis",
-    "omega": "axis",
-    "quat_xyzw": "quat",
-    "final": "packed",
-}
+ROWS = dict.fromkeys(("x", "x_dot", "omega", "y", "y_dot"), "axis") | {"quat_xyzw": "quat", "final": "packed"}
 UNITS = {
     "settling": "s", "excursion": "m", "peak_force": "N", "end": "s", "clearance": "m", "x": "m", "x_dot": "m/s",
     "omega": "rad/s", "lowest": "m", "box_x": "m", "box_y": "m", "box_z": "m",
@@ -89,28 +81,24 @@ def add_arrays(group: Any, study: Study) -> None:
     for name, field in columns_of(study).items():
         dtype, row = np.dtype(field.dtype), field.dims[1:]
         group.create_array(
-            name,
-            shape=(study.runs, *row),
-            chunks=(min(study.chunk, study.runs), *row),
-            dtype=dtype,
-            compressors=blosc,
-            dimension_names=["run", ROWS[name]] if row else ["run"],
-            attributes=_notes(name),
+            name, shape=(study.runs, *row), chunks=(min(study.chunk, study.runs), *row), dtype=dtype, compressors=blosc,
+            dimension_names=["run", ROWS[name]] if row else ["run"], attributes=_notes(name),
             fill_value=np.nan if dtype.kind == "f" else 0,
-        )
+        )  # fmt: skip
     group.create_array(
         MARKS, shape=(study.chunks,), chunks=(1,), dtype="uint64", compressors=None, dimension_names=["chunk"],
         attributes=_notes(MARKS), fill_value=0,
     )  # fmt: skip
 
 
-def model(study: Study) -> Any:
-    """Return a store in memory with the arrays of `add_arrays` and no data, to compare with."""
+def model(study: Study) -> tuple[Any, Mapping[str, Any]]:
+    """Return a store in memory with the arrays of `add_arrays` and no data, to compare with, and its files."""
     import zarr
 
-    group = zarr.create_group(zarr.storage.MemoryStore())
+    files: dict[str, Any] = {}
+    group = zarr.create_group(zarr.storage.MemoryStore(files))
     add_arrays(group, study)
-    return group
+    return group, files
 
 
 def alike(found: Any, wanted: Any) -> bool:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping
-from contextlib import closing
+import os
+from collections.abc import Callable, Generator, Mapping, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import ExitStack, closing
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from flypend import errors, signals
-from flypend.studies.sweep import cluster, local
-from flypend.studies.sweep.chunk import fly_range, program_digest
+from flypend.flight.kernels.stopping import interruptible, join
+from flypend.signals import waiting
+from flypend.studies.sweep import cluster
+from flypend.studies.sweep.chunk import fly_chunk, fly_range, program_digest
 from flypend.studies.sweep.claim import check_place, lock_name
 from flypend.studies.sweep.store import discard, open_store
 from flypend.studies.sweep.study import Study
@@ -20,6 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 Progress = Callable[[int, int], Any]
+DEATHS = 3  # times that worker processes may die in a row, with no chunk in between
 
 
 @errors.named_arguments
@@ -81,28 +86,61 @@ def sweep(
             discard(store)
         kept = open_store(store, made, program, versions())
         missing = [number for number in range(made.chunks) if not kept.whole(number)]
-        done = made.runs - sum(_length(made, number) for number in missing)
+        done = made.runs - sum(len(made.rows(number)) for number in missing)
         progress(done, made.runs)
+        if scheduler is None:
+            flown = _fly_here(made.text(), program, missing, workers or os.cpu_count() or 1, processes)
+        else:
+            flown = cluster.fly_chunks(made.text(), program, missing, scheduler)
         if missing:
-            with closing(_fly(made, program, missing, scheduler, workers, processes)) as flown:
+            with closing(flown):
                 for number, columns in flown:
                     kept.write(number, columns)
-                    done += _length(made, number)
+                    done += len(made.rows(number))
                     progress(done, made.runs)
     return dataset(kept.path)
 
 
-def _fly(
-    made: Study, program: str, numbers: list[int], scheduler: str | None, workers: int | None, processes: bool
+def _fly_here(
+    text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
 ) -> Generator[tuple[int, dict[str, Any]], None, None]:
-    """Yield the chunks `numbers` as they complete, from a Dask cluster or from this machine."""
-    if scheduler is None:
-        return local.fly_chunks(made.text(), program, numbers, workers=workers, processes=processes)
-    return cluster.fly_chunks(made.text(), program, numbers, scheduler)
+    """Yield chunks `numbers` of the study in the TOML string `text`, and their columns, as they complete.
+
+    They are flown by threads, or by processes connected by pipes only, of which another takes over from one that dies.
+    Raises InputError if processes die again and again.
+    """
+    left, deaths = list(numbers), 0
+    while left:
+        try:
+            with closing(_fly_numbers(text, program, left, workers, processes)) as coming:
+                for number, columns in coming:
+                    left.remove(number)
+                    deaths = 0
+                    yield number, columns
+        except BrokenProcessPool as error:
+            deaths += 1
+            if deaths == DEATHS:
+                told = str(error).split(". ")[0]
+                raise errors.InputError("processes", "worker processes that survive (rerun to resume)", told) from None
 
 
-def _length(study: Study, number: int) -> int:
-    return min(study.chunk, study.runs - number * study.chunk)
+def _fly_numbers(
+    text: str, program: str, numbers: Sequence[int], workers: int, processes: bool
+) -> Generator[tuple[int, dict[str, Any]], None, None]:
+    """Yield number and result of each chunk, in the order in which they end."""
+    with ExitStack() as stack:
+        if processes:
+            submit, stop = stack.enter_context(waiting.processes(workers)), None
+        else:
+            submit, stop = stack.enter_context(waiting.threads(workers)).submit, stack.enter_context(interruptible())
+        for call in waiting.as_they_come([submit(_fly, text, number, program, stop) for number in numbers]):
+            yield call.result()
+
+
+def _fly(text: str, number: int, program: str, stop: Any) -> tuple[int, dict[str, Any]]:
+    """Return number and result of a chunk; `stop` is the word of the process that asks."""
+    with join(stop):
+        return number, fly_chunk(text, number, program)
 
 
 def dataset(path: str | Path) -> xarray.Dataset:

@@ -10,11 +10,9 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import shutil
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 from uuid import uuid4
 
@@ -56,16 +54,6 @@ class Store:
         """Names of the columns, sorted."""
         return sorted(self._arrays)
 
-    @property
-    def runs(self) -> int:
-        """Number of runs."""
-        return self.study.runs
-
-    @property
-    def chunk(self) -> int:
-        """Runs per chunk."""
-        return self.study.chunk
-
     def write(self, number: int, columns: Mapping[str, Any]) -> None:
         """Write chunk `number`, then its mark.
 
@@ -87,22 +75,18 @@ class Store:
     def read(self, number: int, names: list[str] | None = None) -> dict[str, Any]:
         """Return the columns `names` (default all) of chunk `number`. Raises InputError unless it matches its mark."""
         try:
-            columns = {name: self._unpacked(name, number) for name in self.columns}
+            columns = {}
+            for name, array in sorted(self._arrays.items()):
+                layout.check_packed(self.path / name, number, array)
+                columns[name] = array[self._rows(number)]
             sound = self._mark(number) == self._digest(number, columns)
         except Exception:  # undecodable data: Zarr and its codecs raise exceptions of many types
             sound = False
-        if sound:
-            self._checked(columns)
         if not sound:
             wanted = f"chunk {number} as it was written (flypend sweep flies it again)"
             raise InputError(str(self.path), wanted, "a chunk that does not match its digest")
+        self._checked(columns)
         return columns if names is None else {name: columns[name] for name in names}
-
-    def _unpacked(self, name: str, number: int) -> Any:
-        """Return the rows of chunk `number` of the column `name`. Raises what Zarr raises, and ValueError."""
-        array = self._arrays[name]
-        layout.check_packed(self.path / name, number, array)
-        return array[self._rows(number)]
 
     def _checked(self, columns: Mapping[str, Any]) -> None:
         """Raise InputError unless `columns` are as those of a chunk of the study."""
@@ -140,7 +124,8 @@ class Store:
         return int(self._marks[number])
 
     def _rows(self, number: int) -> slice:
-        return slice(number * self.chunk, min((number + 1) * self.chunk, self.runs))
+        rows = self.study.rows(number)
+        return slice(rows.start, rows.stop)
 
     def _digest(self, number: int, columns: Mapping[str, Any]) -> int:
         """Sixty-four bits of the SHA-256 of attributes, number and data, never 0."""
@@ -153,12 +138,16 @@ class Store:
 
     def _check_place(self) -> None:
         """Raise InputError unless the folder at the path is still this store."""
-        if _id_at(self.path) != self.attributes["id"]:
+        try:
+            found = parse_json(read_text(self.path / METADATA))["attributes"]["id"]
+        except (OSError, ValueError, LookupError, TypeError):
+            found = None
+        if found != self.attributes["id"]:
             raise InputError(str(self.path), "the store that this sweep has begun", "nothing, or another one")
 
     def _opened(self, writable: bool) -> dict[str, Any]:
         """The arrays by name, their metadata compared with those of a new store."""
-        model = layout.model(self.study)
+        model, files = layout.model(self.study)
         found = {}
         for name, wanted in model.arrays():
             array = _array_in(self.path, self._group, name)
@@ -166,7 +155,7 @@ class Store:
                 if not writable:
                     told = f"the metadata of {name} as they were written (flypend sweep restores them)"
                     raise InputError(str(self.path), told, "none" if array is None else "others")
-                _restore(self.path, name, self.study)
+                _restore(self.path / name / METADATA, files[f"{name}/{METADATA}"].to_bytes())
                 array = self._group[name]
             found[name] = array
         return found
@@ -184,17 +173,12 @@ def _array_in(path: Path, group: Any, name: str) -> Any:
     return array if isinstance(array, zarr.Array) else None
 
 
-def _restore(path: Path, name: str, study: Study) -> None:
-    """Write the metadata of the array `name` in the store at `path`, as in a new store."""
-    import zarr
-
-    target = path / name / METADATA
+def _restore(target: Path, metadata: bytes) -> None:
+    """Write the `metadata` of an array."""
     try:
-        with TemporaryDirectory() as new:
-            layout.add_arrays(zarr.create_group(new), study)
-            target.parent.mkdir(exist_ok=True)
-            partial = target.with_name(f"zarr.{uuid4().hex}.partial")
-            shutil.copyfile(Path(new) / name / METADATA, partial)
+        target.parent.mkdir(exist_ok=True)
+        partial = target.with_name(f"zarr.{uuid4().hex}.partial")
+        partial.write_bytes(metadata)
         partial.replace(target)
     except OSError as error:
         raise InputError(str(target), "a file that can be written", error.strerror or error) from None
@@ -203,19 +187,8 @@ def _restore(path: Path, name: str, study: Study) -> None:
 def open_store(path: str | Path, study: Study, program: str, versions: Mapping[str, str]) -> Store:
     """Return the store of `study` at `path` for writing, creating it if there is none. The caller holds its lock.
 
-    Parameters
-    ----------
-    path, study
-        The path, which ends in .zarr; the study.
-    program : str
-        Digest of the program, from `program_digest`.
-    versions : dict
-        Versions of this package and of those on which the results depend.
-
-    Raises
-    ------
-    InputError
-        If the path is not writable, or if the store belongs to another study (naming the first difference).
+    `program` is the digest from `program_digest`, `versions` are those of the packages on which the results depend.
+    Raises InputError if the path is not writable, or if the store is another study's (naming the first difference).
     """
     path = check_path(path)
     attributes: dict[str, Any] = {
@@ -275,14 +248,6 @@ def _group_at(path: Path) -> Any:
     if group is None or group.attrs.get("flypend") != "sweep":
         raise InputError(str(path), wanted, "nothing" if group is None else "another")
     return group
-
-
-def _id_at(path: Path) -> Any:
-    """The id of the store at `path`; None if there is none."""
-    try:
-        return parse_json(read_text(path / METADATA))["attributes"]["id"]
-    except (OSError, ValueError, LookupError, TypeError):
-        return None
 
 
 def _seal(attributes: Mapping[str, Any]) -> str:

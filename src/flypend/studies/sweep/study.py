@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import deepcopy
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -15,27 +16,25 @@ from flypend.errors import InputError
 from flypend.files.toml import read_toml, toml_text
 from flypend.flight.criterion import Criterion
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, check_judged
+from flypend.flight.sampled import is_random
 from flypend.laws import BoundLaw, Controller
 from flypend.laws.named import THEOREM_1
-from flypend.model import State, Vehicle
+from flypend.model import Vehicle
 from flypend.model.shipped import vehicle_table
 from flypend.plants import AnyPlant, Ideal, Sampled
 from flypend.settings.laws import absolute, law_from, law_table, table_of
-from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, start_of, table_at
+from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, record_at, shallow, start_of, table_at
 from flypend.studies.sweep.axes import Axis, axes
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
 
-KEYS = (
-    "vehicle", "law", "plant", "duration", "rtol", "judge_period", "precision", "max_steps", "runs",
-    "sampling", "seed", "chunk", "final", "criterion", "start", "vary", "tune",
-)  # fmt: skip
+KEYS = ("vehicle", "law", "plant", "duration", "rtol", "start", *STUDY_KEYS)
 # Runs per chunk (ideal plant, sampled plant, MuJoCo, callable law): each takes a few seconds on one core.
 CHUNK, CHUNK_SAMPLED, CHUNK_MUJOCO, CHUNK_STEPPED = 32_768, 2_048, 64, 16
 # A run usually takes a few hundred integrator steps; one that takes this many is chattering.
 STEPS = 20_000
 MOST_CHUNK = 1_000_000
 MOST_RUNS = 10**9
-MOST_PLANTS = 32
+MOST_PLANTS = 32  # more are not worth compiling
 
 
 @errors.named_arguments
@@ -91,14 +90,28 @@ class Study:
         return sum(axis.dimensions for axis in self.axes)
 
     @property
+    def cells(self) -> int:
+        """Number of cells of the grid."""
+        return prod(self.shape)
+
+    @property
+    def plant_cells(self) -> range:
+        """The first cell of each plant: the axes of the plant are the outermost ones."""
+        return range(0, self.cells, prod(len(axis.values) for axis in self.grid if axis.group != "plant"))
+
+    @property
     def runs(self) -> int:
         """Number of runs, over all cells of the grid."""
-        return self.samples * int(np.prod(self.shape, dtype=object))
+        return self.samples * self.cells
 
     @property
     def chunks(self) -> int:
         """Number of chunks."""
         return -(-self.runs // self.chunk)
+
+    def rows(self, number: int) -> range:
+        """Return the runs of chunk `number`."""
+        return range(number * self.chunk, min((number + 1) * self.chunk, self.runs))
 
     @property
     def gains(self) -> tuple[str, ...]:
@@ -131,6 +144,7 @@ class Study:
 
 
 @errors.named_arguments
+@shallow("study")
 def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study:
     """Return the study in `what`, a TOML file or its content as a dict; docs/studies/studies.md lists the keys.
 
@@ -139,19 +153,16 @@ def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study
     Raises InputError if anything is unknown (naming the closest match), missing, or out of range.
     """
     settings = deepcopy(dict(what)) if isinstance(what, Mapping) else read_toml(what)
-    if not isinstance(what, Mapping) and settings.keys() and not STUDY_KEYS & settings.keys():
+    if not isinstance(what, Mapping) and settings.keys() and not settings.keys() & STUDY_KEYS:
         raise InputError(str(what), "a study (runs, vary, …)", f"a run file, or another: flypend run {what}")
     if "law" in settings and not isinstance(what, Mapping):
         settings["law"] = absolute(settings["law"], Path(what).parent)
     if law is not None:
         settings["law"] = table_of(law)
-    try:
-        for key, value in settings.items():
-            check_plain(key, value)
-        with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
-            return _build(settings)
-    except RecursionError:
-        raise InputError("study", "settings nested a few levels deep", "hundreds of levels") from None
+    for key, value in settings.items():
+        check_plain(key, value)
+    with np.errstate(all="ignore"):  # huge numbers overflow during validation, and so fail it
+        return _build(settings)
 
 
 def _build(given: dict[str, Any]) -> Study:
@@ -161,34 +172,32 @@ def _build(given: dict[str, Any]) -> Study:
             raise InputError(key, "a value", "nothing")
     start, vary = _start(given)
     flight = _flight(given, start, vary)
-    plant = flight.plant
-    found = axes(vary, flight.law, isinstance(plant, Sampled))
+    found = axes(vary, flight.law, isinstance(flight.plant, Sampled))
+    errors.check_kind("final", given.get("final", False), bool)
     # Sorted, so that the sample does not depend on the order of the keys in the file.
     order = {"plant": 0, "gains": 1, "start": 2}
-    found = tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name)))
     made = Study(
         flight=flight,
-        axes=found,
+        axes=tuple(sorted(found, key=lambda axis: (order[axis.group], axis.name))),
         samples=errors.integer("runs", given.get("runs", 1), 1),
         sampling=errors.one_of("sampling", given.get("sampling", "uniform"), SAMPLINGS),
         seed=errors.integer("seed", given.get("seed", 1), 0),
         chunk=errors.integer("chunk", given.get("chunk", _chunk(flight)), 1),
-        final=_flag("final", given.get("final", False)),
+        final=given.get("final", False),
         settings={},
         tune=table_at(given, "tune"),
     )
-    _check(made)
-    exact = flight.tolerances
+    exact, plant = flight.tolerances, given.get("plant", "rotors")
     settings = {
         "duration": flight.duration, "rtol": exact.rtol, "judge_period": flight.judge_period,
         "precision": exact.precision, "max_steps": exact.max_steps,
         "runs": made.samples, "sampling": made.sampling, "seed": made.seed, "chunk": made.chunk, "final": made.final,
         "vehicle": flight.vehicle.to_dict(), "law": absolute(law_table(given["law"]), Path.cwd()),
-        "plant": _plant_table(given.get("plant", "rotors")),
+        "plant": {"base": plant} if isinstance(plant, str) and plant != "ideal" else plant,
         "criterion": asdict(flight.criterion), "start": start, "vary": vary,
     }  # fmt: skip
     object.__setattr__(made, "settings", settings)
-    _check_plants(made)
+    _check(made)
     return made
 
 
@@ -200,14 +209,15 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
         max_steps=errors.integer("max_steps", given.get("max_steps", STEPS), 100),
     )
     vehicle = Vehicle.from_dict(vehicle_table(given["vehicle"]))
+    leans = {"y", "tilt", "azimuth"} & table_at(vary, "start").keys()  # from e₃
     flight = Flight(
         vehicle=vehicle,
         law=law_from(law_table(given["law"])).bind(vehicle),
-        starts=_fixed_start(start, vary),
+        starts=start_of({"y": [0.0, 0.0, 1.0], **start} if leans else start),
         duration=given["duration"],
         plant=plant_of(given.get("plant", "rotors")),
         tolerances=exact,
-        criterion=_criterion(given),
+        criterion=record_at(given, "criterion", Criterion),
         judge_period=given.get("judge_period", SAMPLE_PERIOD),
     )
     check_judged(flight)
@@ -234,55 +244,19 @@ def _start(given: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     return start, vary
 
 
-def _fixed_start(start: dict[str, Any], vary: dict[str, Any]) -> State:
-    """The start that all runs share; y is e₃ if the rod varies."""
-    varied = table_at(vary, "start")
-    return start_of({"y": [0.0, 0.0, 1.0], **start} if {"y", "tilt", "azimuth"} & set(varied) else start)
-
-
-def _criterion(given: dict[str, Any]) -> Criterion:
-    table = table_at(given, "criterion")
-    errors.only_known("criterion", table, [entry.name for entry in fields(Criterion)])
-    return Criterion(**table)
-
-
-def _flag(name: str, value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise InputError(name, "true or false", repr(value))
-    return value
-
-
-def _plant_table(value: Any) -> Any:
-    return {"base": value} if isinstance(value, str) and value != "ideal" else value
-
-
 def _check(made: Study) -> None:
-    """Reject what is too large or inconsistent."""
+    """Reject what is too large or inconsistent, and an invalid plant in the grid."""
     if made.runs > MOST_RUNS:
         raise InputError("runs", f"at most {MOST_RUNS} over all cells of the grid", made.runs)
     if made.chunk > MOST_CHUNK:
         raise InputError("chunk", f"at most {MOST_CHUNK}", made.chunk)
-    if made.samples > 1 and made.dimensions == 0 and not _random(made.flight.plant):
-        raise InputError("runs", "1, since nothing is drawn", made.samples)
     check_size(made.sampling, made.samples, made.dimensions)
-
-
-def _random(plant: AnyPlant) -> bool:
-    """Whether `plant` is random."""
-    return isinstance(plant, Sampled) and (
-        plant.noise is not None or plant.sensors is not None or plant.wind is not None
-    )
-
-
-def _check_plants(made: Study) -> None:
-    """Reject an invalid plant in the grid, and more plants than are worth compiling."""
-    axes_ = [axis for axis in made.grid if axis.group == "plant"]
-    plants = int(np.prod([len(axis.values) for axis in axes_], dtype=object))
-    if plants > MOST_PLANTS:
-        raise InputError("vary.plant", f"at most {MOST_PLANTS} plants", plants)
-    step = int(np.prod(made.shape[len(axes_) :], dtype=object))
-    for place in range(plants if axes_ else 0):
-        made.plant_at(place * step)
+    if len(made.plant_cells) > MOST_PLANTS:
+        raise InputError("vary.plant", f"at most {MOST_PLANTS} plants", len(made.plant_cells))
+    plants = [made.plant_at(cell) for cell in made.plant_cells]
+    drawn = made.dimensions > 0 or any(isinstance(plant, Sampled) and is_random(plant) for plant in plants)
+    if made.samples > 1 and not drawn:
+        raise InputError("runs", "1, since nothing is drawn", made.samples)
 
 
 def standard(law: str, vehicle: str | None, plant: Any, runs: int, seed: int, duration: float | None) -> dict[str, Any]:

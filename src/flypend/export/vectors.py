@@ -55,7 +55,7 @@ def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision)
     packed = start.packed()
     packed[:, :3] = rng.uniform(-2, 2, (count, 3))
     forces = FORCE_SPREAD * vehicle.weight * rng.uniform(-1, 1, (count, 6))
-    state = records.state_numbers(packed, forces)
+    state = np.concatenate([packed, forces], axis=-1)
     path = PATH_SPREAD * rng.uniform(-1, 1, (count, records.PATH.length))
     reference = np.array(path_reference(vehicle)(path.T, forces.T)).T
     return round_to(state, precision), round_to(reference, precision)

@@ -20,8 +20,7 @@ from flypend.export import records
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
-from flypend.export.sensors import describe
-from flypend.export.source import initializer
+from flypend.export.source import describe, initializer, literals
 from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import write_texts
@@ -257,7 +256,7 @@ def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:
     return _rod_values(1 / rate, "_bob", "_params.rod_length", "_rod") | {
         **{f"{name}_number": repr(float(getattr(vehicle, own))) for name, own in PENDULUM.items()},
         "force_number": repr(float(vehicle.rotor_limits[1])),
-        "places": ", ".join("{" + ", ".join(literal(float(number), "float") for number in row) + "}" for row in rows),
+        "places": ", ".join(f"{{{literals(row, 'float')}}}" for row in rows),
         "stack": str(PX4_STACK),
         "loop_rate": str(math.ceil(rate)),
     }

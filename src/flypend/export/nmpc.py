@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +22,7 @@ from flypend.compile.c99 import PRECISIONS, Precision, call, function, literal
 from flypend.compile.program import Program, lower
 from flypend.compile.scratch import scratch
 from flypend.export.plan import SHORT, advance
-from flypend.export.source import ascii_of
+from flypend.export.source import ascii_of, literals, rows
 from flypend.export.write import fill
 from flypend.files.staging import write_texts
 from flypend.planning.dynamics import LEAST_ROOM, Stage, Units
@@ -143,15 +144,7 @@ def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any
     own, forces, gains = table_of(plan)
     low, high = (float(limit) for limit in asked.numbers[LOW : HIGH + 1])
     inside = SETTINGS.inside * (high - low)
-
-    def number(value: float) -> str:
-        return literal(float(value), precision)
-
-    def numbers(values: Any) -> str:
-        return ", ".join(number(value) for value in values)
-
-    def rows(values: Any) -> str:
-        return ",\n".join(f"    {{{numbers(row)}}}" for row in values)
+    number, numbers, table = (partial(write, precision=precision) for write in (literal, literals, rows))
 
     def integers(values: Any) -> str:
         return ", ".join(str(int(value)) for value in values)
@@ -168,16 +161,15 @@ def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any
         [*here, "&n->shared"],
         ["n->best.states[first + k - 1]", "n->best.commands[first + k - 1]", "&n->shared"],
     )
-    texts = {
+    return {
         "title": ascii_of(f"nmpc for {vehicle.name}: {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),
         "precision": precision, "rotors": n, "stages": stages, "all": stages + tail, "least": least, "phases": PHASES,
         "ahead": SUBSTEPS, "slopes": layout.of_slopes, "to_go": layout.of_to_go, "cost": layout.of_stage,
         "errors": len(programs["errors"].outputs[0]), "curved": Q.nnz(),
         "scratch": max(scratch(program).size for program in everything.values()),
         "stage": number(plan.stage), "tick": number(plan.stage / PHASES), "duration": number(plan.duration),
-        "timings": rows(timings), "units": numbers(of_state), "target": numbers(plan.target),
-        "states": rows(own), "commands": rows(forces),
-        "gains": ",\n".join(f"    {{\n{rows(each)}\n    }}" for each in gains),
+        "timings": table(timings), "units": numbers(of_state), "target": numbers(plan.target),
+        "states": table(own), "commands": table(forces), "gains": table(gains),
         "F_column": integers(F.colind()), "F_row": integers(F.row()),
         "Q_row": integers(Q_row), "Q_column": integers(Q_column),
         "programs": "\n\n".join(function(program, precision) for program in everything.values()),
@@ -224,4 +216,3 @@ def values_of(plan: Plan, asked: Request, precision: Precision) -> dict[str, Any
         "call_advance_here": calling("advance", ["begun", "wanted", "&into"], ["nominal"]),
         "call_deviation": calling("deviation", ["nominal", "here"], ["off"], "w"),
     }  # fmt: skip
-    return {name: str(text) for name, text in texts.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,8 @@ from flypend.compile.c99 import REAL, SCRATCH, Precision, call, function, litera
 from flypend.compile.program import lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
-from flypend.export.source import ascii_of
+from flypend.export.source import ascii_of, rows
+from flypend.export.write import fill
 from flypend.files.staging import write_texts
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
@@ -24,98 +26,8 @@ from flypend.planning.tracking import FAR_PIVOT, FAR_ROD
 from flypend.plants.equations import rotor_step
 from flypend.plants.lag import symbolic_timing
 
-NAME = "flypend_plan"
 DOUBLINGS, TERMS = 5, 8  # of the exponential
 SHORT = 1e-5  # of a stage: less than that after its beginning, its beginning is taken
-
-_HEADER = """\
-/* {title}
- *
- * Fly it with {name}_command at every tick, from t = 0 where the plan starts. SI units, world frame with e3 up.
- * A state has 24 numbers: position of the pivot, its velocity, the rotation from body to world row by row, angular
- * velocity in the body frame, direction of the rod and its rate. Predict it to the time at which a command acts, and
- * add that delay to t. */
-#ifndef FLYPEND_PLAN_H
-#define FLYPEND_PLAN_H
-
-#define FLYPEND_PLAN_ROTORS {rotors}
-#define FLYPEND_PLAN_STAGES {stages}
-#define FLYPEND_PLAN_DURATION {duration} /* s; then it hovers */
-
-typedef {real} {REAL};
-
-/* Rotor forces (N), within their limits, for a state and the forces of the rotors at time t (s), before 0 as at 0.
- * Returns 0; or 1, and leaves `command`, if rod or pivot are too far from the plan, an input is not a finite number, or
- * the answer would not be: then another law has to take over, for good. */
-int {name}_command({REAL} t, const {REAL} *state, const {REAL} *rotors, {REAL} *command);
-
-#endif
-"""
-
-_SOURCE = """\
-/* {title} */
-#include <math.h>
-#include "{name}.h"
-
-#ifdef __FAST_MATH__
-#error "-ffast-math lets a compiler assume that no number is NaN, and drops the checks below"
-#endif
-
-enum {{ ROTORS = FLYPEND_PLAN_ROTORS, STAGES = FLYPEND_PLAN_STAGES, STATE = {state}, OFF = {off} }};
-static const {REAL} stage = {stage};
-/* Nominal states and rotor forces at the beginning of each stage, the last being hover. */
-static const {REAL} states[STAGES + 1][STATE] = {{
-{states}
-}};
-static const {REAL} commands[STAGES + 1][ROTORS] = {{
-{commands}
-}};
-static const {REAL} gains[STAGES + 1][ROTORS][OFF] = {{
-{gains}
-}};
-
-{functions}
-
-int {name}_command({REAL} t, const {REAL} *state, const {REAL} *rotors, {REAL} *command)
-{{
-    {scratch}{REAL} here[STATE], nominal[STATE], off[OFF], forces[ROTORS], into, rod, pivot, sum;
-    int i, j, k = STAGES;
-
-    sum = {zero} * t; /* 0 as long as all are finite, else not a number */
-    for (i = 0; i < 24; i++)
-        here[i] = state[i];
-    for (i = 0; i < ROTORS; i++)
-        here[24 + i] = rotors[i];
-    for (i = 0; i < STATE; i++)
-        sum += {zero} * here[i];
-    if (t < stage * ({REAL})STAGES)
-        k = (t > 0) ? (int)(t / stage) : 0;
-    into = t - stage * ({REAL})k;
-    if (k < STAGES && into > {short} * stage) {{
-        {advance}
-    }} else {{
-        for (i = 0; i < STATE; i++)
-            nominal[i] = states[k][i];
-    }}
-    if (k < STAGES)
-        {deviation}
-    else
-        {hovering}
-    rod = off[12] * off[12] + off[13] * off[13] + off[14] * off[14];
-    pivot = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
-    for (i = 0; i < ROTORS; i++) {{
-        forces[i] = commands[k][i];
-        for (j = 0; j < OFF; j++)
-            forces[i] -= gains[k][i][j] * off[j];
-        sum += {zero} * forces[i];
-    }}
-    if (!(rod < {far_rod} && pivot < {far_pivot} && sum >= 0))
-        return 1;
-    for (i = 0; i < ROTORS; i++)
-        command[i] = (forces[i] < {low}) ? {low} : ((forces[i] > {high}) ? {high} : forces[i]);
-    return 0;
-}}
-"""
 
 
 @errors.named_arguments
@@ -144,28 +56,22 @@ def files(plan: Plan, precision: Precision) -> dict[str, str]:
     if not isinstance(plan, Plan) or not plan:
         raise InputError("plan", "a plan that can be flown", getattr(plan, "reason", "") or repr(plan)[:80])
     values = _values(plan, precision)
-    return {f"{NAME}.h": _HEADER.format(**values), f"{NAME}.c": _SOURCE.format(**values)}
+    return {name: fill(name, values) for name in ("flypend_plan.h", "flypend_plan.c")}
 
 
 def _values(plan: Plan, precision: Precision) -> dict[str, Any]:
     feedback, vehicle = regulator(plan), plan.vehicle
     n, (low, high) = len(vehicle.rotor_spins), vehicle.rotor_limits
     programs = [lower(made) for made in (advance(vehicle), deviation(n), hovering(n))]
-
-    def number(value: float) -> str:
-        return literal(float(value), precision)
-
-    def rows(values: Any) -> str:
-        return ",\n".join("    {" + ", ".join(number(value) for value in row) + "}" for row in values)
-
-    gains = ",\n".join(f"    {{\n{rows(each)}\n    }}" for each in feedback.gains)
+    number = partial(literal, precision=precision)
     size = max(scratch(program).size for program in programs)
     return {
-        "scratch": f"{REAL} {SCRATCH}[{size}];\n    " if size else "",
+        "scratch": f"    {REAL} {SCRATCH}[{size}];\n" if size else "",
         "title": ascii_of(f"Plan for {vehicle.name}: {plan.duration:.2f} s, excursion {plan.excursion:.3f} m"),
-        "name": NAME, "REAL": REAL, "real": precision, "rotors": n, "stages": len(plan.commands),
+        "precision": precision, "rotors": n, "stages": len(plan.commands),
         "duration": number(plan.duration), "stage": number(plan.stage), "state": SIZE + n, "off": 18 + n,
-        "states": rows(feedback.states), "commands": rows(feedback.commands), "gains": gains,
+        "states": rows(feedback.states, precision), "commands": rows(feedback.commands, precision),
+        "gains": rows(feedback.gains, precision),
         "functions": "\n\n".join(function(program, precision) for program in programs),
         "advance": call(programs[0], ["states[k]", "commands[k]", "&into"], ["nominal"]),
         "deviation": call(programs[1], ["nominal", "here"], ["off"]),

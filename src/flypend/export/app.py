@@ -225,7 +225,7 @@ def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
         "plan_header": '#include "flypend_plan.h"\n' * planned,
         "computer_header": "flypend_law.h" if made.sensing is None else "flypend_sensors.h",
         "state_read": record.name,
-        "zero_state": initializer(record, [0.0] * record.length, "float"),
+        "zero_state": initializer(record, np.zeros(record.length), "float"),
         "latest": str(math.floor(1e3 * latest + 1e-6)),  # whole milliseconds, but for rounding
         "objects": "".join(f"obj-y += {unit}.o\n" for unit in units),
     }

@@ -111,7 +111,7 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     programs = made.all_programs()
     texts = [function(program, precision) for program in programs.values()]
     texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
-    inertia = next(place for field, place in made.params.places() if field.name == "inertia")
+    inertia = made.params.place("inertia").start
     places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
     law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
     sizes = {name: scratch(program).size for name, program in programs.items()}
@@ -138,7 +138,7 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
         },
         "scratch": str(largest),
         "law_scratch": str(max(1, sizes["law"], *(sizes[name] for name in SAFE))),
-        "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia.start, inertia.start + 3)),
+        "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia, inertia + 3)),
         "largest": "DBL_MAX" if precision == "double" else "FLT_MAX",
         **places,
     }

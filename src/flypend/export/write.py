@@ -12,6 +12,8 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
+import numpy as np
+
 from flypend import errors, signals
 from flypend.board.command import usable_lead
 from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
@@ -125,14 +127,14 @@ def fill(name: str, values: dict[str, Any]) -> str:
 def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
     """What the templates take."""
     law, vehicle, computer = made.law, made.vehicle, made.law.computer
-    parts = functions(made, precision)
     gains = [law.numbers.get(field.name, 0.0) for field in made.gains.fields]
     thrust_scale, moment_scale = vectors.scales(vehicle)
     lengths = {
         "reference_length": records.REFERENCE.length, "path_length": records.PATH.length,
         "gains_length": made.gains.length, "params_length": made.params.length,
     }  # fmt: skip
-    values = parts | {name: str(length) for name, length in lengths.items()} | _optional(made)
+    values = functions(made, precision) | _optional(made)
+    values |= {name: str(length) for name, length in lengths.items()}
     values |= {
         "law": ascii_of(law.name),
         "vehicle": ascii_of(vehicle.name),
@@ -151,10 +153,10 @@ def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
         "gains": initializer(made.gains, gains, precision),
         "params": initializer(made.params, records.params_of(vehicle), precision),
         "spins": literals(vehicle.sharing()[2], precision),
-        "place_p": str(next(place.start for field, place in records.REFERENCE.places() if field.name == "p")),
+        "place_p": str(records.REFERENCE.place("p").start),
         "lead": f"{usable_lead(law, vehicle, made.loop.sampled):.3g}",
-        "zero_path": initializer(records.PATH, [0.0] * records.PATH.length, precision),
-        "zero_measurement": initializer(records.MEASUREMENT, [0.0] * records.MEASUREMENT.length, precision),
+        "zero_path": initializer(records.PATH, np.zeros(records.PATH.length), precision),
+        "zero_measurement": initializer(records.MEASUREMENT, np.zeros(records.MEASUREMENT.length), precision),
         "radians": literal(math.pi / 180, precision),
         "sqrt": "sqrt" if precision == "double" else "sqrtf",
         "baked": _constants_in_words(made),
@@ -195,8 +197,8 @@ def _optional(made: Interface) -> dict[str, str]:
 
 def _constants_in_words(made: Interface) -> str:
     """What the code holds as constants, in words."""
-    inertia = next(field for field in made.params.fields if field.name == "inertia")
-    diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"
+    inertia = made.params.place("inertia")
+    diagonal = "a diagonal inertia matrix" if inertia.stop - inertia.start == 3 else "a full inertia matrix"
     text = f"the number of rotors ({made.rotors.length}), their spins, {diagonal}."
     options = made.law.options
     if made.constant:

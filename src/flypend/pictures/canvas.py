@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from flypend.flight.trajectory import Trajectory
 from flypend.laws.named import FACTORIES
@@ -50,3 +51,16 @@ def rule(panels: Iterable[Any]) -> None:
         axes.yaxis.label.set_size(LABEL)
         axes.grid(visible=True, color="#e3e3e3", linewidth=0.5)
         axes.set_axisbelow(True)
+
+
+def distribution(axes: Any, values: Any, total: int, **style: Any) -> None:
+    """Draw the share of a `total` number of runs, in per cent, that has one of `values` up to each."""
+    share = 100 * np.arange(1, len(values) + 1) / total
+    axes.step(np.sort(values), share, where="post", **style)
+
+
+def plain(axis: Any, *labelled: float) -> None:
+    """Label the numbers `labelled` of each decade of a logarithmic `axis`, without exponents."""
+    axis.set_major_locator(LogLocator(subs=labelled))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from flypend.flight.trajectory import Trajectory
 from flypend.laws.named import THEOREM_1
 from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, PINK, RED
-from flypend.paper.basin import Basin
+from flypend.paper.descent import Basin
 from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
 from flypend.pictures.style import style_named
 

@@ -113,12 +113,9 @@ def _from_the_side(axes: Any, vehicle: Vehicle, mount: str) -> None:
     axes.set(xlim=(-wide, wide), ylim=(-1.08 * reach, 1.08 * reach), aspect="equal", xticks=[], yticks=[])
     own = mount == vehicle.mount
     axes.set_title(mount, fontsize=LABEL, fontweight="bold" if own else "normal")
-    axes.set_xlabel(_notes(vehicle)[mount], fontsize=SMALL)
-
-
-def _notes(vehicle: Vehicle) -> dict[str, str]:
-    return {
+    notes = {
         "gimbal": "a ring about it all;\nnothing is in the way",
         "hub": "a ball joint; swings\nthrough a gap",
-        "cup": f"stands loosely, to\n{np.degrees(vehicle.body.cup_angle):.0f}° from the thrust",
+        "cup": f"stands loosely, to\n{np.degrees(body.cup_angle):.0f}° from the thrust",
     }
+    axes.set_xlabel(notes[mount], fontsize=SMALL)

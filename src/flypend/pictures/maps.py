@@ -78,14 +78,13 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", _rates(panels))
     for axis, panel in zip(rows[0], panels, strict=True):
         _hatch(axis, panel)
+        axis.set_title(panel.name, fontsize=LABEL)
     _row(figure, rows[1], panels, "mean settling time (s)", lambda c: c.settling, "viridis", None)
     _row(figure, rows[2], panels, "mean excursion (m)", lambda c: c.excursion, "viridis", None)
     _causes(figure, rows[3], panels, total)
     for place, row in enumerate(rows):
         for axis, panel in zip(row, panels, strict=True):
             _frame(axis, panel, names, last=place == len(rows) - 1)
-    for axis, panel in zip(rows[0], panels, strict=True):
-        axis.set_title(panel.name, fontsize=LABEL)
     return figure
 
 

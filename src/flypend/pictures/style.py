@@ -24,7 +24,7 @@ class Style:
     half, full : (2,)
         Width and height of a small and of a large figure.
     panels : tuple of str
-        What a large figure of a run shows, row by row; see `flypend.pictures.panels`.
+        What a large figure of a run shows, row by row; see `flypend.pictures.figures`.
     columns : int
         Number of panel columns of a large figure.
     wide : float

@@ -29,7 +29,7 @@ from benchmarks import cortex
 from benchmarks.nmpc import ROWS, VEHICLE
 from benchmarks.plans import quantiles
 from benchmarks.results import record
-from flypend.export.nmpc import COARSER, PHASES, export_nmpc, programs_of, table_of
+from flypend.export.plan import COARSER, PHASES, export_nmpc, programs_of, table_of
 from flypend.flight.metrics import wilson
 from flypend.laws import Controller
 from flypend.planning.planner import coarsened

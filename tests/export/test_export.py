@@ -222,6 +222,10 @@ def test_lead_within_limits_and_the_model_of_the_rotors():
     assert np.allclose(led(share), wanted + (1 - share) * (modelled - wanted))
 
 
+def test_a_name_does_not_end_the_comment_that_it_stands_in():
+    assert library(INVERTED, VEHICLE.replace(name="mine */ +"), "double").made.vehicle.name == "mine */ +"
+
+
 # Refusals -------------------------------------------------------------------------------------------------------
 
 

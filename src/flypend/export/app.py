@@ -134,7 +134,7 @@ def export_app(
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     rate = errors.number("rate", RATES[target] if rate is None else rate, above=0, at_most=1000, unit="Hz")
     if height is not None:
-        errors.number("height", height, at_least=0.5, at_most=100, unit="m")
+        height = errors.number("height", height, at_least=0.5, at_most=100, unit="m")
     read = sensors_called(sensors, "sensors")
     if target == "px4":
         _check_px4(airframe, sensors if read else None, planned)

@@ -222,11 +222,7 @@ def _compile(folder: Path) -> Path:
 
 
 def library(
-    law: Law | BoundLaw,
-    vehicle: Vehicle,
-    precision: Precision,
-    rate: float = 500.0,
-    sensors: Sensors | None = None,
+    law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0, sensors: Sensors | None = None
 ) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
     return _library(law.bind(vehicle), vehicle, precision, rate, sensors)

@@ -25,10 +25,10 @@ _ASCII = {
 
 
 def ascii_of(text: str) -> str:
-    """`text` in letters that every compiler and editor knows."""
+    """`text` in letters that every compiler and editor knows, and that do not end a comment."""
     for sign, plain in _ASCII.items():
         text = unicodedata.normalize("NFC", text).replace(sign, plain)
-    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
+    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().replace("*/", "* /")
 
 
 def struct(record: Record, unused: Sequence[str] = ()) -> str:

@@ -6,7 +6,6 @@ import math
 import warnings
 import zlib
 from collections.abc import Sequence
-from dataclasses import astuple
 from importlib import metadata, resources
 from pathlib import Path
 from string import Template
@@ -243,8 +242,8 @@ def _vectors(made: Interface, precision: Precision) -> dict[str, str]:
     return {
         "vector_tolerance": repr(TOLERANCE[precision]),
         "steps": str(vectors.STEPS),
-        "vectors": _rows(answered, astuple(found), precision),
-        "flights": _rows(flown, astuple(flights), precision),
+        "vectors": _rows(answered, found, precision),
+        "flights": _rows(flown, flights, precision),
     }
 
 

@@ -16,10 +16,9 @@ from flypend import geometry
 from flypend.files.whole import save_figure
 from flypend.flight.trajectory import Trajectory
 from flypend.palette import BLUE, GREEN, GREY, INK, PAGE, PINK, RED
-from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, rule, title
 from flypend.pictures.descent import lyapunov_curves, lyapunov_label
 from flypend.pictures.stop_motion import snapshot_times, stop_motion
-from flypend.pictures.style import Style, letter, style_of
+from flypend.pictures.style import LABEL, SMALL, Style, decimals, letter, new_figure, rule, style_of, title
 
 __all__ = ["full_figure", "paper_figure", "save_figure", "snapshot_times", "stop_motion"]
 

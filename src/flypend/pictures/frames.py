@@ -32,6 +32,7 @@ from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED, STATES
 from flypend.pictures import drawing
 
 Frame = Any  # memoryview of (height, width, 4) bytes, valid until the next frame is drawn
+Pair = tuple[float, float]
 Part = Callable[[int], list[Any]]  # updates artists for a frame and returns them in drawing order
 
 TRAIL = 0.5  # length of the bob's trail, s of flight
@@ -89,7 +90,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
     return render
 
 
-def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> tuple[float, float]:
+def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> Pair:
     """Set up the scene around the pivot; return half its width and height, m."""
     pixels = (size[0] * SCENE[2], size[1] * SCENE[3])
     scale = ZOOM * sketch.reach(run.vehicle) / min(pixels)
@@ -129,7 +130,7 @@ def _strip(ax: Any, run: Trajectory, t: Any, states: State) -> None:
     ax.text(1.0, 1.08, f"{run.law} law", transform=ax.transAxes, ha="right", fontsize=9)
 
 
-def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: tuple[float, float]) -> list[Part]:
+def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: Pair) -> list[Part]:
     """Grid lines fixed in the world, in the plane of the pivot x (n, 3; e₃ up), with coordinate labels."""
     if view == "axis":  # coordinates in the frame of the run
         across, up, origin, names = geometry.E1, geometry.E2, 0.0, ("x₁ = ", "x₂ = ")
@@ -147,14 +148,7 @@ def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: tu
 
 
 def _ruler(
-    ax: Any,
-    at: Any,
-    spacing: float,
-    slant: float,
-    half: tuple[float, float],
-    name: str,
-    sign: int,
-    upright: bool = False,
+    ax: Any, at: Any, spacing: float, slant: float, half: Pair, name: str, sign: int, upright: bool = False
 ) -> Part:
     """Parallel lines every `spacing` m that scroll past a pivot at coordinate `at` (n,), to the right or `upright`.
 

@@ -13,8 +13,7 @@ from flypend.model.body import MOUNTS
 from flypend.model.mount import clearances
 from flypend.model.vehicle import Vehicle
 from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, REAR, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, new_figure
 
 LEAN = np.radians(20.0)  # of the rod in the side views
 BEARINGS = np.radians(np.arange(0.0, 360.0, 0.5))

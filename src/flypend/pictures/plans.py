@@ -14,9 +14,8 @@ from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.palette import BLUE, GREEN, GREY, INK, RED, SERIES
-from flypend.pictures.canvas import LABEL, SMALL, distribution, new_figure, plain, rule
 from flypend.pictures.maps import hemisphere
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, distribution, new_figure, plain, rule
 from flypend.planning.result import Plan
 from flypend.planning.window import Window
 from flypend.studies.limit import Front, Strays

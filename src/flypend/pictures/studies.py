@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from flypend.palette import GREY, SERIES
-from flypend.pictures.canvas import SMALL, distribution, new_figure, plain, rule
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import PAGE, SMALL, distribution, new_figure, plain, rule
 from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
 from flypend.studies.margins import LEAST_RATE, Margin

@@ -176,9 +176,10 @@ def _moment(ax: Any, run: Trajectory) -> None:
 
 
 def _signal(ax: Any, run: Trajectory) -> None:
-    """The Lyapunov functions; the rod rate for a law that has none."""
+    """V and its terms, in the unit of the law's V where that is known; the rod rate for a law that has none."""
     if "V" in run.signals:
-        _lyapunov(ax, run)
+        lyapunov_curves(ax, run)
+        ax.set_ylabel(lyapunov_label(run, "Lyapunov function"), fontsize=LABEL)
     else:
         _components(ax, run.t, r"\dot{y}", run.y_dot, "1/s")
 
@@ -188,12 +189,6 @@ def _components(ax: Any, t: Any, name: str, values: Any, unit: str, word: str = 
     for i, (color, style) in enumerate(COMPONENTS):
         ax.plot(t, values[:, i], color=color, linestyle=style, label=f"${name}_{i + 1}$", **line_style(t))
     ax.set_ylabel(f"{word}${name}$ ({unit})", fontsize=LABEL)
-
-
-def _lyapunov(ax: Any, run: Trajectory) -> None:
-    """Plot V and its terms, in the unit of the law's V where that is known."""
-    lyapunov_curves(ax, run)
-    ax.set_ylabel(lyapunov_label(run, "Lyapunov function"), fontsize=LABEL)
 
 
 def _clip_spikes(ax: Any, values: Any, unit: str) -> None:

@@ -12,13 +12,12 @@ with constants and static memory.
 from __future__ import annotations
 
 import re
-import subprocess
 import tempfile
 from functools import cache
 from pathlib import Path
 
 import flypend as fp
-from benchmarks import cortex
+from benchmarks import cortex, run
 
 STANDINS = Path(__file__).parents[1] / "tests" / "export" / "standins"
 HEADERS = (
@@ -64,7 +63,7 @@ def exported(name: str, vehicle: fp.Vehicle, folder: Path) -> Path:
 def stack(app: Path, *defined: str) -> tuple[int, int]:
     """Bytes of stack of the app's controller, and in how many periods the law flew, refusals and a landing beside."""
     words = [*FLAGS, *defined, *INCLUDED, *cortex.LINKED, *_objects(app), STANDINS / "stack.c", "-lm"]
-    _run("arm-none-eabi-gcc", *words, "-o", "stack.elf", folder=app)
+    run("arm-none-eabi-gcc", *words, "-o", "stack.elf", folder=app)
     return _painted(app / "stack.elf")
 
 
@@ -77,7 +76,7 @@ def app_cycles(app: Path) -> int:
 
 def size(folder: Path) -> tuple[int, int]:
     """Bytes of flash and of RAM of the objects."""
-    lines = _run("arm-none-eabi-size", *_objects(folder), folder=folder).splitlines()
+    lines = run("arm-none-eabi-size", *_objects(folder), folder=folder).splitlines()
     text, data, bss = (sum(int(line.split()[i]) for line in lines[1:]) for i in range(3))
     return text + data, data + bss
 
@@ -86,22 +85,15 @@ def size(folder: Path) -> tuple[int, int]:
 def _objects(folder: Path) -> list[str]:
     """Compile the sources in `folder`, once for all that is measured of them."""
     sources = sorted(path.name for path in folder.glob("flypend_*.c"))
-    _run("arm-none-eabi-gcc", *FLAGS, *INCLUDED, "-c", *sources, folder=folder)
+    run("arm-none-eabi-gcc", *FLAGS, *INCLUDED, "-c", *sources, folder=folder)
     return [name.replace(".c", ".o") for name in sources]
 
 
 def _painted(elf: Path) -> tuple[int, int]:
     output = ("-chardev", "stdio,id=said", "-semihosting-config", "enable=on,target=native,chardev=said")
-    said = _run(*cortex.QEMU, *output, "-kernel", elf, folder=elf.parent)
+    said = run(*cortex.QEMU, *output, "-kernel", elf, folder=elf.parent)
     found = re.search(r"stack (\d+) flown (\d+)", said)
     return int(found[1]), int(found[2])
-
-
-def _run(*words: object, folder: Path) -> str:
-    done = subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(map(str, words))}\n{done.stdout}{done.stderr}")
-    return done.stdout
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 import flypend as fp
-from benchmarks import cortex
+from benchmarks import cortex, run
 from flypend.compile.scratch import matrices
 from flypend.export import vectors
 from flypend.export.interface import interface
@@ -118,11 +118,6 @@ def rows(name, law, vehicle, precision):
                 cycles = executed(folder, caller)
                 cells += [cycles, f"{CLOCK / cycles / 1e3:.1f}", f"{100 * RATE * cycles / CLOCK:.2f}"]
             yield f"| {name}, {part}, {precision} | {' | '.join(map(str, cells))} |"
-
-
-def run(*command, folder):
-    """What a command prints; it must succeed."""
-    return subprocess.run(list(map(str, command)), cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
 @cache

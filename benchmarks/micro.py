@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import argparse
 import ctypes
-import subprocess
 import tempfile
 from functools import cache
 from pathlib import Path
@@ -25,11 +24,11 @@ from typing import Any
 import numpy as np
 
 import flypend as fp
-from benchmarks import cortex
+from benchmarks import cortex, run
 from benchmarks.nmpc import ROWS, VEHICLE
 from benchmarks.plans import quantiles
 from benchmarks.results import record
-from flypend.export.nmpc import COARSER, PHASES, export_nmpc, programs_of, table_of
+from flypend.export.plan import COARSER, PHASES, export_nmpc, programs_of, table_of
 from flypend.flight.metrics import wilson
 from flypend.laws import Controller
 from flypend.planning.planner import coarsened
@@ -61,7 +60,7 @@ def library(folder: Path) -> ctypes.CDLL:
     """Compile the C code for this machine."""
     export_nmpc(hanging(), folder)
     words = ("gcc", "-std=c99", "-O1", "-shared", "-fPIC", "flypend_nmpc.c", "-lm", "-o", "nmpc.so")
-    subprocess.run(words, cwd=folder, check=True)
+    run(*words, folder=folder)
     return ctypes.CDLL(str(folder / "nmpc.so"))
 
 
@@ -159,10 +158,10 @@ def costs(folder: Path) -> list[str]:
     export_nmpc(plan, folder)
     (folder / "main.c").write_text(MAIN)
     start, compiler = str(cortex.HERE / "start.c"), ("arm-none-eabi-gcc", *cortex.FLAGS, "-std=gnu99", "-O2")
-    subprocess.run((*compiler, "-c", "flypend_nmpc.c"), cwd=folder, check=True)
+    run(*compiler, "-c", "flypend_nmpc.c", folder=folder)
     for name, kick in (("improve", 0.0), ("improve", KICK), ("command", 0.0)):
         words = (f"-DKICK={kick}f", *cortex.LINKED, "main.c", "flypend_nmpc.o", start, "-lm", "-o", "main.elf")
-        subprocess.run((*compiler, *words), cwd=folder, check=True)
+        run(*compiler, *words, folder=folder)
         ((count, spent),) = cortex.executed(folder / "main.elf", f"flypend_nmpc_{name}")
         told = f"{name} (all lengths)" if kick else name
         times = {f"M4 cycles {where}": spent / hertz for where, hertz in CLOCKS.items()}
@@ -170,9 +169,8 @@ def costs(folder: Path) -> list[str]:
         record(told, instructions=count, cycles=spent, **times)
         in_ms = ", ".join(f"{where} {1e3 * time:.2f} ms" for where, time in times.items())
         lines.append(f"{told}: {count} instructions, {spent} cycles, {in_ms}")
-    words = ("arm-none-eabi-size", "main.elf")
-    sizes = subprocess.run(words, cwd=folder, check=True, capture_output=True, text=True).stdout
-    code, data, memory = map(int, sizes.splitlines()[1].split()[:3])
+    sizes = run("arm-none-eabi-size", "main.elf", folder=folder).splitlines()
+    code, data, memory = map(int, sizes[1].split()[:3])
     record("bytes", flash=code + data, memory=data + memory)
     return [*lines, f"bytes: flash {code + data}, memory {data + memory}"]
 

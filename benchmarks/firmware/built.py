@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-import subprocess
 from pathlib import Path
+
+from benchmarks import run
 
 HOST = Path(__file__).with_name("host")
 MODULES = "src/modules/src"
@@ -42,9 +43,9 @@ FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-fno-strict-aliasing", "-fno-math-errno"
 
 def build(firmware: Path, app: Path, airframe: str) -> Path:
     """Return the library of `firmware` with `app`, an export for `airframe`, beside the app."""
-    _run(["make", f"CRAZYFLIE_BASE={firmware}", f"{airframe}_defconfig"], app)
-    _run([firmware / "scripts/kconfig/merge_config.sh", "-O", "build", "-m", "build/.config", "app-config"], app)
-    _run(["make", "-C", firmware, f"OOT={app}", f"KBUILD_OUTPUT={app / 'build'}", "silentoldconfig"], app)
+    run("make", f"CRAZYFLIE_BASE={firmware}", f"{airframe}_defconfig", folder=app)
+    run(firmware / "scripts/kconfig/merge_config.sh", "-O", "build", "-m", "build/.config", "app-config", folder=app)
+    run("make", "-C", firmware, f"OOT={app}", f"KBUILD_OUTPUT={app / 'build'}", "silentoldconfig", folder=app)
     folder = app / "host"
     folder.mkdir(exist_ok=True)
     (folder / "compensation.c").write_text(_compensation((firmware / "src/drivers/src/motors.c").read_text()))
@@ -53,11 +54,11 @@ def build(firmware: Path, app: Path, airframe: str) -> Path:
     made = []
     for source in [*sources, folder / "compensation.c"]:
         done = folder / f"{Path(source).stem}.o"
-        _run(["gcc", *FLAGS, *includes, "-include", "groups.h", "-c", source, "-o", done], folder)
+        run("gcc", *FLAGS, *includes, "-include", "groups.h", "-c", source, "-o", done, folder=folder)
         made.append(done)
     (folder / "absent.c").write_text(_absent(made))
     library = folder / "firmware.so"
-    _run(["gcc", *FLAGS, "-shared", *made, "absent.c", "-lm", "-o", library], folder)
+    run("gcc", *FLAGS, "-shared", *made, "absent.c", "-lm", "-o", library, folder=folder)
     return library
 
 
@@ -76,21 +77,13 @@ def _compensation(motors: str) -> str:
 def _absent(objects: list[Path]) -> str:
     """Functions that end the program, for those that nothing here defines and no flight here calls."""
     wanted, defined = set(), set()
-    for line in _run(["nm", *objects], objects[0].parent).splitlines():
+    for line in run("nm", *objects, folder=objects[0].parent).splitlines():
         if found := re.search(r" ([A-Z]) (\w+)$", line):
             (wanted if found[1] == "U" else defined).add(found[2])
     find = "nm -D --defined-only $(gcc -print-file-name=libc.so.6) $(gcc -print-file-name=libm.so.6)"
-    known = _run(["sh", "-c", find], objects[0].parent)
+    known = run("sh", "-c", find, folder=objects[0].parent)
     defined |= {line.split()[-1].split("@")[0] for line in known.splitlines() if line.strip()}
     lines = ["#include <stdio.h>\n#include <stdlib.h>\n"]
     for name in sorted(wanted - defined - {"_GLOBAL_OFFSET_TABLE_"}):
         lines.append(f'void {name}(void) {{ fprintf(stderr, "not on the host: {name}\\n"); abort(); }}\n')
     return "".join(lines)
-
-
-def _run(command: list, folder: Path) -> str:
-    words, quiet = [str(word) for word in command], subprocess.DEVNULL
-    done = subprocess.run(words, cwd=folder, stdin=quiet, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return done.stdout

@@ -211,9 +211,19 @@ def test_lead_within_limits_and_the_model_of_the_rotors():
     code, rng = library(INVERTED, VEHICLE, "double"), default_rng(4)
     low, high = VEHICLE.rotor_limits
     wanted, modelled = rng.uniform(low, high, (2, 4))
-    assert np.allclose(code.lead(wanted, modelled, 2.1), np.clip(modelled + 2.1 * (wanted - modelled), low, high))
+
+    def led(by):
+        command = np.empty(4)
+        assert code.call("flypend_lead", wanted, modelled, by, code.params, command) == OK
+        return command
+
+    assert np.allclose(led(2.1), np.clip(modelled + 2.1 * (wanted - modelled), low, high))
     share = 1 - np.exp(-0.002 / VEHICLE.rotor_lag)  # as the header says, it moves the model on as well
-    assert np.allclose(code.lead(wanted, modelled, share), wanted + (1 - share) * (modelled - wanted))
+    assert np.allclose(led(share), wanted + (1 - share) * (modelled - wanted))
+
+
+def test_a_name_does_not_end_the_comment_that_it_stands_in():
+    assert library(INVERTED, VEHICLE.replace(name="mine */ +"), "double").made.vehicle.name == "mine */ +"
 
 
 # Refusals -------------------------------------------------------------------------------------------------------

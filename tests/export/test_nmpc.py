@@ -10,7 +10,7 @@ from cbuild import build, run
 
 import flypend as fp
 from flypend.cli import app as cli
-from flypend.export.nmpc import COARSER, PHASES, sizes, table_of
+from flypend.export.plan import COARSER, PHASES, sizes, table_of
 from flypend.planning.dynamics import Units
 from flypend.planning.feedback import Feedback, Follower, regulator, stepping
 from flypend.planning.planner import coarsened

@@ -292,6 +292,12 @@ def test_an_airframe_is_px4s_own_to_know(tmp_path):
         fp.export_app("px4", LAW, VEHICLE, tmp_path / "app", airframe="cf2", height=HEIGHT)
 
 
+@pytest.mark.parametrize("height", [4, np.float64(4)])
+def test_a_height_of_any_type_is_a_number_of_the_module(height, tmp_path):
+    fp.export_app("px4", LAW, VEHICLE, tmp_path, height=height)
+    assert "            default: 4.0\n" in (tmp_path / "module.yaml").read_text()
+
+
 def test_a_law_that_does_not_fit_is_refused(tmp_path, monkeypatch):
     monkeypatch.setitem(fits.BUDGETS["px4"].most, "cycles", 1_000)
     with pytest.raises(fp.InputError, match=r"at most 1,000 cycles of a flight controller with PX4.*% too many"):

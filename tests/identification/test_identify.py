@@ -9,7 +9,7 @@ import flypend as fp
 from flypend.errors import InputError
 from flypend.identification.manoeuvre import rehearse, write_log
 from flypend.identification.model import places
-from flypend.identification.result import T_975, conclude
+from flypend.identification.result import T_975, _machine, conclude
 from tests.identification.test_rosbag import TOPICS, flight, write_bag
 
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)

@@ -10,8 +10,7 @@ import numpy as np
 from flint import arb, ctx
 
 from flypend.compile.program import interpret, lower
-from flypend.export.records import params_of, params_record
-from flypend.export.symbolic import SymbolicVehicle
+from flypend.export.records import SymbolicVehicle, params_of, params_record
 from flypend.laws.closed_loop import WRENCH, wrench_in
 from flypend.model import State, equations_of_motion
 from flypend.model.state import SIZE

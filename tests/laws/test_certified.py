@@ -16,8 +16,7 @@ from taylor_balls import proves
 
 import flypend as fp
 from flypend.compile.program import interpret, lower
-from flypend.export.records import params_of, params_record
-from flypend.export.symbolic import SymbolicVehicle
+from flypend.export.records import SymbolicVehicle, params_of, params_record
 from flypend.geometry import E3, cross, dot, rotation_from_vector
 from flypend.laws import certificate, references, verify
 from flypend.laws.certified import _run, _state, chart_function, differs, statement

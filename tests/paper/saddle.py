@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from flypend.flight.ensemble import simulate_ensemble
 from flypend.laws import Law
 from flypend.model import State, Vehicle
-from flypend.paper.basin import planar
+from flypend.paper.descent import planar
 
 DURATION, PERIOD = 20.0, 0.02
 TOP = -0.5  # y₃ below it: the rod is near the saddle

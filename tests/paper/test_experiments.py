@@ -14,7 +14,7 @@ import flypend as fp
 from flypend import paper as experiments
 from flypend.geometry import norm
 from flypend.laws.sphere import regulation
-from flypend.paper import claims, defects, experiment, experiment_names, sphere, stability, statements
+from flypend.paper import defects, experiment, experiment_names, sphere, stability
 from flypend.paper.claims import SETTLED, largest_rise, pivot_acceleration, theorem_claims
 from flypend.paper.defects import DEFECTS
 
@@ -522,63 +522,63 @@ def test_a_flight_begun_at_one_of_the_four_equilibria_stays(rod, axis):
 
 
 def test_the_sign_of_the_work_is_not_shown_if_the_equations_had_it_right(runs, monkeypatch):
-    real = statements.equations_of_motion
+    real = defects.equations_of_motion
 
     def turned(state, wrench, of, e3):
         return real(state, fp.Wrench(-wrench.thrust, -wrench.moment), of, e3)
 
-    monkeypatch.setattr(statements, "equations_of_motion", turned)
-    assert not statements.work_sign(runs).shown
+    monkeypatch.setattr(defects, "equations_of_motion", turned)
+    assert not defects.work_sign(runs).shown
 
 
 def test_one_state_that_departs_is_in_the_numbers_of_the_work(runs, monkeypatch):
-    real = statements.energy_rate
+    real = defects.energy_rate
 
     def disturbed(*given):
         rate = np.array(real(*given))
         rate[7] += 3.0
         return rate
 
-    told = list(statements.work_sign(runs).evidence.values())
-    monkeypatch.setattr(statements, "energy_rate", disturbed)
-    for before, after in zip(told, statements.work_sign(runs).evidence.values(), strict=True):
+    told = list(defects.work_sign(runs).evidence.values())
+    monkeypatch.setattr(defects, "energy_rate", disturbed)
+    for before, after in zip(told, defects.work_sign(runs).evidence.values(), strict=True):
         assert after > 1e6 * max(before, 1e-15)
 
 
 def test_the_rate_of_the_energy_is_that_of_the_energy_along_a_run(runs):
     run = runs.corrected["1"]
     energy = fp.model.total_energy(run.states, run.vehicle, "down")
-    rate = statements.energy_rate(run.states, run.wrench, run.vehicle)
+    rate = defects.energy_rate(run.states, run.wrench, run.vehicle)
     # Trapezes of 10 ms.
     assert np.trapezoid(rate, run.t) == pytest.approx(energy[-1] - energy[0], rel=1e-3)
 
 
 def test_the_thrust_at_rest_is_not_shown_if_it_is_the_printed_one(runs):
     printed = altered(runs, "corrected", "3", thrust=lambda run: 0 * run.thrust - 0.2)
-    assert not statements.thrust_at_rest(printed).shown
+    assert not defects.thrust_at_rest(printed).shown
 
 
 def test_the_units_are_not_shown_if_the_gain_is_the_same_in_all(runs, monkeypatch):
-    monkeypatch.setattr(statements, "printed_gain", lambda speed, unit: 24.525 / (1 + speed))
-    assert not statements.units_of_gain(runs).shown
+    monkeypatch.setattr(defects, "printed_gain", lambda speed, unit: 24.525 / (1 + speed))
+    assert not defects.units_of_gain(runs).shown
 
 
 def test_the_gain_in_seconds_is_the_one_that_flies(runs):
     run = runs.corrected["3"]
     speed = norm(run.y_dot)
-    k_p = [statements.printed_gain(value, 1.0) for value in np.hypot(speed, run.gains["speed_floor"])]
+    k_p = [defects.printed_gain(value, 1.0) for value in np.hypot(speed, run.gains["speed_floor"])]
     np.testing.assert_allclose(run.signals["k_p"], k_p, rtol=1e-12)
 
 
 def test_the_frames_are_not_shown_if_gravity_pulled_the_other_way(runs, monkeypatch):
-    real = statements.potential_energy
-    monkeypatch.setattr(statements, "potential_energy", lambda state, of, e3: real(state, of, "up"))
-    assert not statements.frames(runs).shown
+    real = defects.potential_energy
+    monkeypatch.setattr(defects, "potential_energy", lambda state, of, e3: real(state, of, "up"))
+    assert not defects.frames(runs).shown
 
 
 def test_the_conclusions_are_not_shown_if_the_heading_comes_back(runs, monkeypatch):
-    monkeypatch.setattr(statements, "simulate", lambda *args, **options: runs.corrected["1"])
-    assert not statements.conclusions(runs).shown
+    monkeypatch.setattr(defects, "simulate", lambda *args, **options: runs.corrected["1"])
+    assert not defects.conclusions(runs).shown
 
 
 def test_flying_tells_each_run_before_it(monkeypatch):
@@ -773,4 +773,4 @@ def test_the_page_on_units_frames_and_conclusions(sections, findings):
 
 def test_the_claims_are_those_of_the_report():
     assert [verdict.claim for verdict in theorem_claims(made())] == list(ALL)
-    assert len(claims.CLAIMS) == len(ALL)
+    assert len(theorem_claims(made())) == len(ALL)

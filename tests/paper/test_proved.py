@@ -9,9 +9,8 @@ from saddle import crossing, loop_around, ways_down, winding
 import flypend as fp
 from flypend.geometry import E3, norm
 from flypend.paper import experiment_names
-from flypend.paper.basin import basin, planar
-from flypend.paper.descent import PROVED, RISES, any_rotors, descend, laws, relative_rises, wide_starts
-from flypend.paper.proved import SWING_UPS, claims_of, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
+from flypend.paper.claims import SWING_UPS, claims_of, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
+from flypend.paper.descent import PROVED, RISES, any_rotors, basin, descend, laws, planar, relative_rises, wide_starts
 from flypend.paper.stability import RUNAWAYS, runaway_starts
 from flypend.pictures.descent import basin_figure
 from tests.few import slow

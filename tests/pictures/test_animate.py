@@ -17,7 +17,7 @@ from flypend.flight.verdict import verdict
 from flypend.pages import sketch
 from flypend.pages.camera import project
 from flypend.paper import experiment
-from flypend.pictures import animate, drawing, frames, lettering
+from flypend.pictures import animate, drawing, frames
 
 ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
 SMALL = {"size": (192, 160), "speed": 1.0, "fps": 20.0}
@@ -148,7 +148,7 @@ def test_frames_do_not_depend_on_those_before(run):
 
 @pytest.mark.parametrize("words", ["height −12.3 m, speed 4.5 m/s", "0.25 s"])
 def test_words_are_laid_out_as_matplotlib_does(words):
-    vertices, codes, width = lettering.outline(words)
+    vertices, codes, width = frames.outline(words)
     whole = TextPath((0, 0), words, size=1)
     np.testing.assert_array_equal(codes, whole.codes)
     np.testing.assert_allclose(vertices, whole.vertices, atol=0.02)  # font units; kerning is left out

@@ -23,9 +23,9 @@ from flypend.model import gravity_vector
 from flypend.pages import sketch
 from flypend.palette import RED
 from flypend.paper import experiment
-from flypend.pictures import canvas, drawing, figures
+from flypend.pictures import drawing, figures
 from flypend.pictures.frames import stage
-from flypend.pictures.style import STYLES, style_named
+from flypend.pictures.style import STYLES, new_figure, style_named, title
 from tests.few import each_once, few
 
 ARRAYS = ("t", "x", "x_dot", "R", "omega", "y", "y_dot", "thrust", "moment", "rotor_forces", "x_ref")
@@ -410,7 +410,7 @@ def test_stop_motion_of_a_run_that_ended_early(singular):
 
 @pytest.mark.parametrize("view", drawing.VIEWS)
 def test_the_symbol_of_gravity(run, view):
-    ax = canvas.new_figure(3, 3).subplots()
+    ax = new_figure(3, 3).subplots()
     drawing.gravity_symbol(ax, view, (0.0, 0.0), 1.0, fontsize=8)
     assert [text.get_text() for text in ax.texts if text.get_text()] == ["g"]
     arrows = [text for text in ax.texts if not text.get_text()]
@@ -597,4 +597,4 @@ def test_lines_and_words_of_a_page_stand_out_from_its_background(theme, ground):
 def test_the_title_names_only_options_that_are_not_the_usual_ones():
     vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
     full, light = (fp.simulate(vehicle, fp.laws.inverted(form=form), start, 0.1) for form in ("full", "light"))
-    assert (canvas.title(full), canvas.title(light)) == ("inverted law", "inverted law, form light")
+    assert (title(full), title(light)) == ("inverted law", "inverted law, form light")

@@ -20,8 +20,7 @@ from flypend.export import records
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
-from flypend.export.sensors import describe
-from flypend.export.source import initializer
+from flypend.export.source import describe, initializer, literals
 from flypend.export.tested import Room, swing_up_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import write_texts
@@ -135,7 +134,7 @@ def export_app(
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     rate = errors.number("rate", RATES[target] if rate is None else rate, above=0, at_most=1000, unit="Hz")
     if height is not None:
-        errors.number("height", height, at_least=0.5, at_most=100, unit="m")
+        height = errors.number("height", height, at_least=0.5, at_most=100, unit="m")
     read = sensors_called(sensors, "sensors")
     if target == "px4":
         _check_px4(airframe, sensors if read else None, planned)
@@ -226,7 +225,7 @@ def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
         "plan_header": '#include "flypend_plan.h"\n' * planned,
         "computer_header": "flypend_law.h" if made.sensing is None else "flypend_sensors.h",
         "state_read": record.name,
-        "zero_state": initializer(record, [0.0] * record.length, "float"),
+        "zero_state": initializer(record, np.zeros(record.length), "float"),
         "latest": str(math.floor(1e3 * latest + 1e-6)),  # whole milliseconds, but for rounding
         "objects": "".join(f"obj-y += {unit}.o\n" for unit in units),
     }
@@ -257,7 +256,7 @@ def _px4(vehicle: Vehicle, rate: float) -> dict[str, str]:
     return _rod_values(1 / rate, "_bob", "_params.rod_length", "_rod") | {
         **{f"{name}_number": repr(float(getattr(vehicle, own))) for name, own in PENDULUM.items()},
         "force_number": repr(float(vehicle.rotor_limits[1])),
-        "places": ", ".join("{" + ", ".join(literal(float(number), "float") for number in row) + "}" for row in rows),
+        "places": ", ".join(f"{{{literals(row, 'float')}}}" for row in rows),
         "stack": str(PX4_STACK),
         "loop_rate": str(math.ceil(rate)),
     }

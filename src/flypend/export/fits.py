@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -41,7 +41,7 @@ class Budget:
     stack: int
     memory: int
     code: int
-    most: Mapping[str, int]
+    most: Mapping[str, int] = field(hash=False)
 
 
 BUDGETS: Mapping[str, Budget] = {
@@ -81,7 +81,7 @@ def check_fits(made: Interface, texts: Mapping[str, str], budget: Budget) -> Map
     flown = made.board if made.sensing is None else made.sensing.board
     taken = {"cycles": CYCLES_OF_OPERATION * flown.operations()}
     if shutil.which(COMPILER):
-        taken |= compiled(tuple(sorted(texts.items())), budget.of)
+        taken |= compiled(tuple(sorted(texts.items())), budget)
     over = {what: number for what, number in taken.items() if number > budget.most.get(what, number)}
     if over:
         wanted = ", ".join(f"{budget.most[what]:,} {what}" for what in over)
@@ -93,9 +93,8 @@ def check_fits(made: Interface, texts: Mapping[str, str], budget: Budget) -> Map
 
 
 @lru_cache(maxsize=8)
-def compiled(texts: tuple[tuple[str, str], ...], of: str) -> dict[str, int]:
-    """Return the bytes of stack, flash and RAM that an app with the computer of `texts`, by file, takes `of` whom."""
-    budget = next(known for known in BUDGETS.values() if known.of == of)
+def compiled(texts: tuple[tuple[str, str], ...], budget: Budget) -> dict[str, int]:
+    """Return the bytes of stack, flash and RAM that an app with the computer of `texts`, by file, takes of `budget`."""
     names = [Path(name).stem for name, _ in texts if name.endswith(".c")]
     computer = "sensors" if "flypend_sensors" in names else "board"
     header = "flypend_sensors.h" if computer == "sensors" else "flypend_law.h"

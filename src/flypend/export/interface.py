@@ -20,7 +20,6 @@ from flypend.compile.routine import Routine, lower_calls
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.safe import holding
-from flypend.export.symbolic import SymbolicVehicle
 from flypend.laws import BoundLaw, Law
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
@@ -31,7 +30,6 @@ from flypend.plants.plant import Sampled
 from flypend.plants.sensing import readings_record
 from flypend.plants.sensors import Sensors
 
-FORCES = 6  # external forces on vehicle and bob
 GAINS = 3  # place of the gains among the inputs of the law
 
 
@@ -140,23 +138,14 @@ def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | 
     loop = Loop(vehicle, law, Sampled(rate=rate))
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
     params = ca.SX.sym("params", record.length)
-    stand_in = SymbolicVehicle(params, record, vehicle)
+    stand_in = records.SymbolicVehicle(params, record, vehicle)
     believed = Believed(stand_in, params)
     names, constant, steering = _law(_calmed(loop, sensors), params, stand_in)
     loop = replace(loop, parameters=tuple(names))
-    functions = [
-        steering,
-        _carry(params, stand_in),
-        _share(params, stand_in),
-        _quicken(params, stand_in, rotors.length),
-        _gather(params, stand_in, rotors.length),
-        holding(loop, stand_in, params),
-        _rod(),
-        _attitude(),
-        _begin(loop, rotors.length),
-    ]
-    programs = {function.name(): lower(function) for function in functions}
-    command = _command(loop, believed, steering, functions[1], follows=bool(reads(programs["law"], 2)))
+    functions = {function.name(): function for function in (steering, *_around(loop, params, stand_in))}
+    programs = {name: lower(function) for name, function in functions.items()}
+    follows = bool(reads(programs["law"], 2))
+    command = _command(loop, believed, steering, functions["carry"], follows=follows)
     return Interface(
         loop=loop,
         gains=records.gains_record(loop.symbolic, names),
@@ -211,7 +200,7 @@ def _law(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str
 
     The law is (state (24,), forces (6,), reference, gains, params) → wrench (4,), e₃ up.
     """
-    state, forces = ca.SX.sym("state", SIZE), ca.SX.sym("forces", FORCES)
+    state, forces = ca.SX.sym("state", SIZE), ca.SX.sym("forces", records.FORCES)
     reference = ca.SX.sym("reference", records.REFERENCE.length)
     gains = {name: ca.SX.sym(name) for name in law.numbers if name not in law.fixed}
     try:
@@ -294,11 +283,6 @@ def reference_numbers(vehicle: Any, path: Any, on_bob: Any) -> Any:
     return ca.densify(ca.substitute(values, t, 0))
 
 
-def _carry(params: Any, vehicle: Any) -> ca.Function:
-    path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", FORCES)
-    return ca.Function("carry", [path, forces, params], [ca.cse(reference_numbers(vehicle, path, forces[3:]))])
-
-
 def shift_path(path: Any, time: Any) -> Any:
     """The numbers of `records.PATH` on a `path` `time` seconds later, as far as its derivatives tell."""
     orders = ca.vertsplit(path, 3)
@@ -316,69 +300,53 @@ def _command(
     state, rotors = ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
     outside, path = ca.MX.sym("outside", OUTSIDE.length), ca.MX.sym("path", records.PATH.length)
     gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", believed.symbols.numel())
+    found, rescaled, shift = _steps(believed)
     reference = ca.MX(ca.DM.zeros(records.REFERENCE.length))
-    forces, flown = outside[OUTSIDE.place("forces")], _found(believed)(outside, params)
+    forces, flown = outside[OUTSIDE.place("forces")], found(outside, params)
     if follows:
-        reference = carry(_shift()(path, horizon), forces, flown)
-    wrench = _rescale()(steering(state, forces, reference, gains, flown), outside)
+        reference = carry(shift(path, horizon), forces, flown)
+    wrench = rescaled(steering(state, forces, reference, gains, flown), outside)
     command = finish(loop, believed)(wrench, state, rotors, params)
     return ca.Function("command", [t, horizon, state, rotors, outside, path, gains, params], [command])
 
 
-def _found(believed: Believed) -> ca.Function:
-    """(outside, params) → params with the length of the rod as found."""
-    outside, params = ca.SX.sym("outside", OUTSIDE.length), believed.symbols
-    flown = ca.substitute(params, believed.vehicle.l, found_length(believed.vehicle, outside))
-    return ca.Function("found", [outside, params], [flown])
-
-
-def _rescale() -> ca.Function:
+def _steps(believed: Believed) -> tuple[ca.Function, ca.Function, ca.Function]:
+    """(outside, params) → params with the length of the rod as found; `rescale`; (path, time) → `shift_path`."""
     wrench, outside = ca.SX.sym("wrench", 4), ca.SX.sym("outside", OUTSIDE.length)
-    return ca.Function("rescale", [wrench, outside], [rescale(wrench, outside)])
-
-
-def _shift() -> ca.Function:
-    """The path a time later, s, for the path now."""
     path, time = ca.SX.sym("path", records.PATH.length), ca.SX.sym("time")
-    return ca.Function("shift", [path, time], [shift_path(path, time)])
-
-
-def _begin(loop: Loop, count: int) -> ca.Function:
-    rotors = ca.SX.sym("rotors", count)
-    return ca.Function("begin", [rotors], [ca.densify(initial_memory(loop, rotors))])
+    params, vehicle = believed.symbols, believed.vehicle
+    flown = ca.substitute(params, vehicle.l, found_length(vehicle, outside))
+    return (
+        _function("found", [outside, params], flown),
+        _function("rescale", [wrench, outside], rescale(wrench, outside)),
+        _function("shift", [path, time], shift_path(path, time)),
+    )
 
 
 # Rotors and checks ------------------------------------------------------------------------------------------------
 
 
-def _share(params: Any, vehicle: Any) -> ca.Function:
-    wrench = ca.SX.sym("wrench", 4)
-    return ca.Function("share", [wrench, params], [ca.densify(allocate(wrench[0], wrench[1:], vehicle))])
+def _around(loop: Loop, params: Any, vehicle: Any) -> list[ca.Function]:
+    """What stands around the law: reference, rotors, the safe answer, the checks of a state, a memory that begins."""
+    rotors, wanted, modelled = (ca.SX.sym(name, len(vehicle.rotor_spins)) for name in ("rotors", "wanted", "modelled"))
+    path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", records.FORCES)
+    wrench, lead, packed = ca.SX.sym("wrench", 4), ca.SX.sym("lead"), ca.SX.sym("state", SIZE)
+    state, (low, high) = State.symbolic(packed), vehicle.rotor_limits
+    R, y, y_dot = state.R, state.y, state.y_dot
+    quickened = ca.fmin(ca.fmax(lead_rotors(wanted, modelled, lead), low), high)
+    on_sphere = ca.vertcat(ca.fabs(ca.norm_2(y) - 1), ca.fabs(ca.dot(y, y_dot)), ca.norm_2(y_dot))
+    is_rotation = ca.vertcat(ca.norm_fro(R.T @ R - ca.SX.eye(3)), ca.det(R))
+    return [
+        _function("carry", [path, forces, params], ca.cse(reference_numbers(vehicle, path, forces[3:]))),
+        _function("share", [wrench, params], allocate(wrench[0], wrench[1:], vehicle)),
+        _function("quicken", [wanted, modelled, lead, params], quickened),
+        _function("gather", [rotors, params], ca.mtimes(vehicle.mixing(), rotors)),
+        holding(loop, vehicle, params),
+        _function("rod", [packed], on_sphere),  # ||y| − 1|, |y · ẏ|, |ẏ|
+        _function("attitude", [packed], is_rotation),  # ‖RᵀR − 1‖, det R
+        _function("begin", [rotors], initial_memory(loop, rotors)),
+    ]
 
 
-def _quicken(params: Any, vehicle: Any, count: int) -> ca.Function:
-    wanted, modelled, lead = ca.SX.sym("wanted", count), ca.SX.sym("modelled", count), ca.SX.sym("lead")
-    low, high = vehicle.rotor_limits
-    command = ca.fmin(ca.fmax(lead_rotors(wanted, modelled, lead), low), high)
-    return ca.Function("quicken", [wanted, modelled, lead, params], [ca.densify(command)])
-
-
-def _gather(params: Any, vehicle: Any, count: int) -> ca.Function:
-    rotors = ca.SX.sym("rotors", count)
-    return ca.Function("gather", [rotors, params], [ca.densify(ca.mtimes(vehicle.mixing(), rotors))])
-
-
-def _rod() -> ca.Function:
-    """State (24,) → ||y| − 1|, |y · ẏ|, |ẏ|."""
-    packed = ca.SX.sym("state", SIZE)
-    s = State.symbolic(packed)
-    values = ca.vertcat(ca.fabs(ca.norm_2(s.y) - 1), ca.fabs(ca.dot(s.y, s.y_dot)), ca.norm_2(s.y_dot))
-    return ca.Function("rod", [packed], [ca.densify(values)])
-
-
-def _attitude() -> ca.Function:
-    """State (24,) → ‖RᵀR − 1‖, det R."""
-    packed = ca.SX.sym("state", SIZE)
-    R = State.symbolic(packed).R
-    values = ca.vertcat(ca.norm_fro(R.T @ R - ca.SX.eye(3)), ca.det(R))
-    return ca.Function("attitude", [packed], [ca.densify(values)])
+def _function(name: str, inputs: Sequence[Any], output: Any) -> ca.Function:
+    return ca.Function(name, [*inputs], [ca.densify(output)])

@@ -18,6 +18,7 @@ from flypend import errors
 from flypend.board.program import known_to_computer
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
+from flypend.compile.record import Record
 from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.interface import interface
@@ -97,17 +98,6 @@ class Library:
         self.call("flypend_follow", path, state, self.params, reference)
         return reference
 
-    def lead(self, wanted: Any, modelled: Any, lead: float) -> Any:
-        """Commands (k,) for `wanted` and `modelled` rotor forces (k,) and a `lead`."""
-        count = self.made.rotors.length
-        wanted, modelled, command = self.array(wanted, count), self.array(modelled, count), np.empty(count, self.real)
-        self.call("flypend_lead", wanted, modelled, self.real.type(lead), self.params, command)
-        return command
-
-    def rotors(self, forces: Any) -> Any:
-        """Rotor `forces` (n,), N, as C takes them; None for the least."""
-        return None if forces is None else self.array(forces, self.made.rotors.length)
-
     def call(self, name: str, *values: Any) -> int:
         """The status of the C function `name`: arrays are passed as pointers, integers and reals as they are."""
         real = ctypes.c_double if self.real == np.float64 else ctypes.c_float
@@ -132,50 +122,52 @@ class CompiledBoard:
     rotors : (n,), optional
         Forces that the rotors begin with, N; default the least.
 
-    `numbers` is the C struct as bytes, `status` the last answer.
+    `numbers` is the C struct as bytes, `memory` a view of those that the board remembers, `status` the last answer.
     """
 
+    kind = "board"  # in the names of its C functions
+
     def __init__(self, code: Library, path: Callable[[float], Any] | None = None, rotors: Any = None) -> None:
-        self.code, self._path = code, path
-        self.numbers = np.zeros(int(code.c.flypend_board_bytes()), np.uint8)
-        self._measurement = np.zeros(records.MEASUREMENT.length, code.real)
-        self._along = np.zeros(records.PATH.length, code.real)
-        self._rotors = np.zeros(code.made.rotors.length, code.real)
+        self._set_up(code, code.made.memory, records.MEASUREMENT, path)
         self.begin(rotors)
+
+    def _set_up(self, code: Library, memory: Record, measured: Record, path: Callable[[float], Any] | None) -> None:
+        """Lay out the C struct, with its `memory`, and the arrays that a step takes, such as what is `measured`."""
+        self.code, self.status, self._path = code, NOT_BEGUN, path
+        bytes_, start = (int(getattr(code.c, f"flypend_{self.kind}_{end}")()) for end in ("bytes", "memory"))
+        self.numbers = np.zeros(bytes_, np.uint8)
+        self.memory = self.numbers[start : start + memory.length * code.real.itemsize].view(code.real)
+        lengths = (measured.length, records.PATH.length, code.made.rotors.length)
+        self._measured, self._along, self._rotors = arrays = [np.zeros(length, code.real) for length in lengths]
         self._pointers = [
-            ctypes.c_void_p(array.ctypes.data)
-            for array in (self.numbers, self._measurement, self._along, code.params, self._rotors)
+            ctypes.c_void_p(array.ctypes.data) for array in (self.numbers, *arrays[:2], code.params, arrays[2])
         ]
-        self._step = code.c.flypend_board_step
+        self._step = getattr(code.c, f"flypend_{self.kind}_step")
 
     def begin(self, rotors: Any = None) -> None:
         """Begin with forces `rotors` (n,), N, of the rotors, by default the least; sets `status`."""
-        code, given = self.code, self.code.rotors(rotors)
-        self.status = code.call("flypend_board_restart", self.numbers, code.gains, code.params, given)
+        self._restart(rotors)
 
-    @property
-    def memory(self) -> Any:
-        """The numbers that the board remembers: a view of them."""
-        start = int(self.code.c.flypend_board_memory())
-        return self.numbers[start : start + self.code.made.memory.length * self.code.real.itemsize].view(self.code.real)
+    def _restart(self, rotors: Any, *estimate: Any) -> None:
+        code = self.code
+        given = None if rotors is None else code.array(rotors, code.made.rotors.length)
+        name = f"flypend_{self.kind}_restart"
+        self.status = code.call(name, self.numbers, code.gains, code.params, *estimate, given)
 
-    def step(self, measurement: Any, path: Any = None) -> Any:
-        """Rotor forces (n,) for a state (24,), or None for none, and numbers of `records.PATH`; sets `status`."""
-        if path is not None:
-            self._along[:] = path
-        if measurement is None:
-            self.status = self._step(self._pointers[0], None, *self._pointers[2:])
-        else:
-            self._measurement[:] = measurement
-            self.status = self._step(*self._pointers)
+    def step(self, measured: Any, path: Any = None) -> Any:
+        """Rotor forces (n,) for a state (24,) or readings, None for none, and numbers of `records.PATH`.
+
+        Without a `path` it hovers at the origin. Sets `status`.
+        """
+        self._along[:] = 0 if path is None else self.code.array(path, len(self._along))
+        if measured is not None:
+            self._measured[:] = self.code.array(measured, len(self._measured))
+        board, given, *others = self._pointers
+        self.status = self._step(board, None if measured is None else given, *others)
         return self._rotors.astype(float)
 
-    def skip(self) -> None:
-        """Let a period go by without a call: `flypend_board_pass`."""
-        self.status = self.code.call("flypend_board_pass", self.numbers)
-
     def command(self, t: float, measured: Any) -> Any:
-        """Rotor forces (n,) for the state `measured` (24,), e₃ up, at time `t` (s); NaN where the board refuses.
+        """Rotor forces (n,) for the state (24,), e₃ up, or readings `measured` at time `t` (s); NaN where refused.
 
         The safe answer is none of the law's: a flight that needs it ends as singular, as it does in Python. With a
         damaged memory it is flown, and the board begins again, as adapters do.
@@ -186,57 +178,33 @@ class CompiledBoard:
         return np.full(len(rotors), np.nan) if self.status else rotors
 
 
-class CompiledSensors:
-    """A flight computer of `code` with an estimator; arguments as of `CompiledBoard`.
+class CompiledSensors(CompiledBoard):
+    """A flight computer of `code` with an estimator, which begins with `estimate_from`; otherwise as `CompiledBoard`.
 
-    It begins with `estimate_from`. `numbers` is the C struct as bytes, `status` the last answer.
+    With a damaged memory it begins again at the last estimate.
     """
+
+    kind = "sensors"
 
     def __init__(self, code: Library, path: Callable[[float], Any] | None = None, rotors: Any = None) -> None:
         assert code.made.sensing is not None
-        self.code, self._path, self._begun = code, path, rotors
-        self.numbers = np.zeros(int(code.c.flypend_sensors_bytes()), np.uint8)
-        self._estimate = np.zeros(records.STATE.length, code.real)
-        self.status = NOT_BEGUN
-        self._rotors = np.zeros(code.made.rotors.length, code.real)
-        self._hover = code.array(np.zeros(records.PATH.length))
-        self._reads = readings_record(code.made.sensing.sensors).length
-
-    @property
-    def memory(self) -> Any:
-        """The numbers that are remembered: a view of them."""
-        assert self.code.made.sensing is not None
-        start = int(self.code.c.flypend_sensors_memory())
-        size = self.code.made.sensing.memory.length * self.code.real.itemsize
-        return self.numbers[start : start + size].view(self.code.real)
+        self._set_up(code, code.made.sensing.memory, readings_record(code.made.sensing.sensors), path)
+        self._begun, self._estimate = rotors, np.zeros(records.STATE.length, code.real)
 
     def estimate_from(self, estimate: Any) -> None:
         """Begin with the `estimate` (24,) of the state, e₃ up."""
-        self._estimate[:] = records.state_numbers(np.asarray(estimate), np.zeros(6))
+        self._estimate[:] = np.append(estimate, np.zeros(records.FORCES))
         self.begin(self._begun)
 
     def begin(self, rotors: Any = None) -> None:
         """Begin with the last estimate and forces `rotors` (n,), N, by default the least; sets `status`."""
-        code, given = self.code, self.code.rotors(rotors)
-        self.status = code.call("flypend_sensors_restart", self.numbers, code.gains, code.params, self._estimate, given)
-
-    def step(self, readings: Any, path: Any = None) -> Any:
-        """Rotor forces (n,) for numbers of the readings, or None for none, and of `records.PATH`; sets `status`."""
-        code, given = self.code, None if readings is None else self.code.array(readings, self._reads)
-        along = self._hover if path is None else code.array(path, records.PATH.length)
-        self.status = code.call("flypend_sensors_step", self.numbers, given, along, code.params, self._rotors)
-        return self._rotors.astype(float)
+        self._restart(rotors, self._estimate)
 
     def command(self, t: float, measured: Any) -> Any:
-        """Rotor forces (n,) for the readings `measured` at time `t` (s); NaN where they are refused.
-
-        With a damaged memory the least forces are flown, and it begins again at the last estimate.
-        """
-        rotors = self.step(measured, None if self._path is None else self._path(t))
-        if self.status == NOT_BEGUN:
-            self.begin(rotors)
+        """As that of `CompiledBoard`."""
+        rotors = super().command(t, measured)
         self.code.call("flypend_sensors_estimate", self.numbers, self._estimate)  # kept outside of what may be damaged
-        return np.full(len(rotors), np.nan) if self.status else rotors
+        return rotors
 
 
 def _compile(folder: Path) -> Path:
@@ -254,20 +222,13 @@ def _compile(folder: Path) -> Path:
 
 
 def library(
-    law: Law | BoundLaw,
-    vehicle: Vehicle,
-    precision: Precision,
-    rate: float = 500.0,
-    sensors: Sensors | None = None,
+    law: Law | BoundLaw, vehicle: Vehicle, precision: Precision, rate: float = 500.0, sensors: Sensors | None = None
 ) -> Library:
     """The compiled `law` for `vehicle`, once per process."""
     return _library(law.bind(vehicle), vehicle, precision, rate, sensors)
 
 
-@lru_cache(maxsize=16)
-def _library(law: BoundLaw, vehicle: Vehicle, precision: Precision, rate: float, sensors: Sensors | None) -> Library:
-    """Compile what `library` returns for a law that is bound."""
-    return Library(law, vehicle, precision, rate, sensors)
+_library = lru_cache(maxsize=16)(Library)
 
 
 def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
@@ -297,7 +258,7 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
 
     def wrench(t: float, state: State) -> Wrench:
         """The bare law, without estimates of external forces."""
-        numbers = records.state_numbers(state.in_frame(bound.e3).packed(), np.zeros(6))
+        numbers = np.append(state.in_frame(bound.e3).packed(), np.zeros(records.FORCES))
         values, _, status = code.step(numbers, code.follow(path(t), numbers))
         found = Wrench(values[0, 0], values[0, 1:]) if not status[0] else Wrench(np.nan, np.full(3, np.nan))
         return found.in_frame(bound.e3)

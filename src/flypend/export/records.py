@@ -1,21 +1,26 @@
-"""The records that cross the border to C: one table for the header, the symbols and the memory layout."""
+"""The records that cross the border to C: one table for the header, the symbols and the memory layout.
+
+With a vehicle whose numbers are symbols, so that exported code takes them at run time.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
 from flypend.compile.record import Field, Record
 from flypend.laws import BoundLaw
-from flypend.model import State, Vehicle
+from flypend.model import Vehicle
+from flypend.model.state import FLIP, SIZE
 
 # A law follows pivot and bob up to their snap; the bob's snap takes eight derivatives of the pivot's path.
 ORDERS = ("", "_dot", "_ddot", "_dddot", "_ddddot")
 PATH_ORDERS = 9
+FORCES = 6  # external forces on vehicle and bob
 UNITS = ("m", "m/s", "m/s²", "m/s³", "m/s⁴")
-
 
 _MOTION = (
     Field("x", 3, "position of the pivot, world, m"),
@@ -39,6 +44,7 @@ STATE = Record(
         Field("force_on_bob", 3, "the same on the bob, world, N"),
     ),
 )
+assert STATE.length == SIZE + FORCES
 REFERENCE = Record(
     "reference",
     "What the law follows, world frame; all 0 but the bob's height l for hover at the origin.",
@@ -65,35 +71,48 @@ WRENCH = Record(
 
 def rotors_record(vehicle: Vehicle) -> Record:
     """Forces of the rotors of `vehicle`, in its order."""
-    forces = Field("force", _count(vehicle), "N")
-    return Record("rotors", "Forces of the rotors, in the order of the vehicle.", (forces,))
+    forces = (Field("force", len(vehicle.rotor_spins), "N"),)
+    return Record("rotors", "Forces of the rotors, in the order of the vehicle.", forces)
+
+
+def _constants(vehicle: Vehicle) -> list[tuple[Field, Any]]:
+    """What the C code takes of `vehicle` at run time: each field with its numbers."""
+    I, (tilting, per_yaw, spins), mixing = vehicle.inertia, vehicle.sharing(), vehicle.mixing()
+    n, principal = len(spins), np.diag(I)
+    inertia: tuple[Field, Any] = (
+        Field("inertia", 3, "principal moments about the body axes x, y, z, kg m^2"),
+        principal,
+    )
+    if not np.array_equal(I, np.diag(principal)):
+        full = Field("inertia", 6, "xx, yy, zz, xy, xz, yz entries of the inertia matrix, body, kg m^2")
+        inertia = (full, [*principal, I[0, 1], I[0, 2], I[1, 2]])
+    least, largest = vehicle.rotor_limits
+    return [
+        (Field("mass", 0, "M, of the vehicle without the pendulum that swings as its rod does, kg"), vehicle.M),
+        (Field("bob_mass", 0, "m, of the bob of that pendulum, kg"), vehicle.m),
+        (Field("rod_length", 0, "l, of that pendulum, m"), vehicle.l),
+        (Field("gravity", 0, "g, m/s^2"), vehicle.gravity),
+        inertia,
+        (Field("rotor_least", 0, "least force of one rotor, N"), least),
+        (Field("rotor_largest", 0, "largest force of one rotor, N"), largest),
+        (Field("per_roll", n, "force of each rotor per moment about x, N/(N m)"), tilting[:, 0]),
+        (Field("per_pitch", n, "force of each rotor per moment about y, N/(N m)"), tilting[:, 1]),
+        (Field("per_yaw", 0, "size of the force of each rotor per moment about z, N/(N m)"), per_yaw),
+        (Field("roll_arm", n, "moment about x per force of each rotor, m"), mixing[1]),
+        (Field("pitch_arm", n, "moment about y per force of each rotor, m"), mixing[2]),
+        (Field("yaw_arm", 0, "size of the moment about z per force of each rotor, m"), abs(mixing[3, 0])),
+        (Field("spin", n, "+1 or -1: sign of the moment about z of each rotor; the code is for these"), spins),
+    ]
 
 
 def params_record(vehicle: Vehicle) -> Record:
     """The constants of `vehicle` that the C code takes at run time."""
-    inertia = [Field("inertia", 3, "principal moments about the body axes x, y, z, kg m^2")]
-    if not _diagonal(vehicle):
-        inertia = [Field("inertia", 6, "xx, yy, zz, xy, xz, yz entries of the inertia matrix, body, kg m^2")]
-    return Record(
-        "params",
-        "The vehicle.",
-        (
-            Field("mass", 0, "M, of the vehicle without the pendulum that swings as its rod does, kg"),
-            Field("bob_mass", 0, "m, of the bob of that pendulum, kg"),
-            Field("rod_length", 0, "l, of that pendulum, m"),
-            Field("gravity", 0, "g, m/s^2"),
-            *inertia,
-            Field("rotor_least", 0, "least force of one rotor, N"),
-            Field("rotor_largest", 0, "largest force of one rotor, N"),
-            Field("per_roll", _count(vehicle), "force of each rotor per moment about x, N/(N m)"),
-            Field("per_pitch", _count(vehicle), "force of each rotor per moment about y, N/(N m)"),
-            Field("per_yaw", 0, "size of the force of each rotor per moment about z, N/(N m)"),
-            Field("roll_arm", _count(vehicle), "moment about x per force of each rotor, m"),
-            Field("pitch_arm", _count(vehicle), "moment about y per force of each rotor, m"),
-            Field("yaw_arm", 0, "size of the moment about z per force of each rotor, m"),
-            Field("spin", _count(vehicle), "+1 or -1: sign of the moment about z of each rotor; the code is for these"),
-        ),
-    )
+    return Record("params", "The vehicle.", tuple(field for field, _ in _constants(vehicle)))
+
+
+def params_of(vehicle: Vehicle) -> Any:
+    """The numbers of `params_record` for `vehicle`."""
+    return np.concatenate([np.ravel(numbers) for _, numbers in _constants(vehicle)])
 
 
 def gains_record(law: BoundLaw, names: Sequence[str]) -> Record:
@@ -102,37 +121,51 @@ def gains_record(law: BoundLaw, names: Sequence[str]) -> Record:
     return Record("gains", f"Gains of the {law.name} law.", fields or (Field("none", 0, "no gain is left; keep 0"),))
 
 
-def params_of(vehicle: Vehicle) -> Any:
-    """The numbers of `params_record` for `vehicle`."""
-    I, (tilting, per_yaw, spins), mixing = vehicle.inertia, vehicle.sharing(), vehicle.mixing()
-    inertia = np.diag(I) if _diagonal(vehicle) else [*np.diag(I), I[0, 1], I[0, 2], I[1, 2]]
-    return np.concatenate(
-        [
-            [vehicle.M, vehicle.m, vehicle.l, vehicle.gravity],
-            inertia,
-            vehicle.rotor_limits,
-            tilting[:, 0],
-            tilting[:, 1],
-            [per_yaw],
-            mixing[1],
-            mixing[2],
-            [abs(mixing[3, 0])],
-            spins,
-        ]
-    )
+class SymbolicVehicle:
+    """A vehicle whose constants are the `symbols` of `records.params_record`, with what equations ask a `Vehicle` for.
+
+    Spins and lag of its rotors are those of `vehicle`.
+    """
+
+    def __init__(self, symbols: Any, record: Record, vehicle: Vehicle) -> None:
+        v = record.split(symbols)
+        self.values = v
+        self.M = self.mass = v["mass"]
+        self.m = self.bob_mass = v["bob_mass"]
+        self.l = self.rod_length = v["rod_length"]
+        self.g = self.gravity = v["gravity"]
+        self.I = self.inertia = _inertia(v["inertia"])
+        self.rotor_limits = (v["rotor_least"], v["rotor_largest"])
+        self.rotor_spins, self.rotor_lag = vehicle.sharing()[2], vehicle.rotor_lag
+        self.weight = (self.M + self.m) * self.g
+        self.name = "symbolic"
+
+    def sharing(self) -> tuple[Any, Any, Any]:
+        """As `Vehicle.sharing`, from the symbols."""
+        tilting = ca.horzcat(self.values["per_roll"], self.values["per_pitch"])
+        return tilting, self.values["per_yaw"], self.rotor_spins
+
+    def mixing(self) -> Any:
+        """As `Vehicle.mixing` with e₃ up, from the symbols."""
+        v, spins = self.values, ca.DM(self.rotor_spins)
+        return ca.vertcat(ca.SX.ones(1, spins.numel()), v["roll_arm"].T, v["pitch_arm"].T, (v["yaw_arm"] * spins).T)
+
+    @property
+    def I_inv(self) -> Any:
+        """Inverse of the inertia matrix."""
+        return ca.inv_minor(self.I)
+
+    def in_frame(self, e3: str) -> SymbolicVehicle:
+        """The vehicle in the body frame of `e3`."""
+        if e3 == "up" or self.I.nnz() == 3:
+            return self
+        turned = object.__new__(SymbolicVehicle)
+        turned.__dict__.update(self.__dict__, I=FLIP @ self.I @ FLIP)
+        return turned
 
 
-def state_numbers(packed: Any, forces: Any) -> Any:
-    """The numbers of `STATE`, (..., 30), for packed states (..., 24) and external forces (..., 6), e₃ up."""
-    return np.concatenate([packed, forces], axis=-1)
-
-
-def _count(vehicle: Vehicle) -> int:
-    return len(vehicle.rotor_spins)
-
-
-def _diagonal(vehicle: Vehicle) -> bool:
-    return bool(np.array_equal(vehicle.inertia, np.diag(np.diag(vehicle.inertia))))
-
-
-assert STATE.length == State(y=(0, 0, 1)).packed().size + 6
+def _inertia(entries: Any) -> Any:
+    if entries.numel() == 3:
+        return ca.diag(entries)
+    xx, yy, zz, xy, xz, yz = ca.vertsplit(entries)
+    return ca.vertcat(ca.horzcat(xx, xy, xz), ca.horzcat(xy, yy, yz), ca.horzcat(xz, yz, zz))

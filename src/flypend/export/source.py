@@ -1,15 +1,22 @@
-"""C text of the interface: structs, the numbers in them, and the functions of the programs."""
+"""C text of the interface: structs, the numbers in them, the functions of the programs, what sensors add."""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
 
 from flypend.compile.c99 import Precision, call, function, inputs_used_by, literal, routine_function, routine_scratch
+from flypend.compile.program import Program
 from flypend.compile.record import Record
+from flypend.compile.routine import Routine
 from flypend.compile.scratch import scratch
 from flypend.export import records
-from flypend.export.interface import Interface
+from flypend.export.interface import Interface, Sensing
+from flypend.plants.sensing import readings_record
+from flypend.plants.sensors import Sensors
 
 _ASCII = {
     "²": "^2", "³": "^3", "⁴": "^4", "₁": "1", "₂": "2", "₃": "3", "⁻¹": "^-1", "·": "*", "×": "x", "√": "sqrt",
@@ -18,10 +25,10 @@ _ASCII = {
 
 
 def ascii_of(text: str) -> str:
-    """`text` in letters that every compiler and editor knows."""
+    """`text` in letters that every compiler and editor knows, and that do not end a comment."""
     for sign, plain in _ASCII.items():
         text = unicodedata.normalize("NFC", text).replace(sign, plain)
-    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode()
+    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().replace("*/", "* /")
 
 
 def struct(record: Record, unused: Sequence[str] = ()) -> str:
@@ -68,14 +75,28 @@ def record_of(record: Record) -> str:
     return "\n".join([head, "{", *lines, "}"])
 
 
-def initializer(record: Record, values: Iterable[float], precision: Precision) -> str:
+def literals(values: Iterable[float], precision: Precision) -> str:
+    """C literals of `values`, between commas."""
+    return ", ".join(literal(value, precision) for value in values)
+
+
+def rows(table: Any, precision: Precision) -> str:
+    """C initializers of the rows of a `table` (n, k), a line each, or of all tables of one (m, n, k)."""
+    if np.ndim(table) == 3:
+        return ",\n".join(f"    {{\n{rows(each, precision)}\n    }}" for each in table)
+    return ",\n".join(f"    {{{literals(row, precision)}}}" for row in table)
+
+
+def initializer(record: Record, values: Any, precision: Precision) -> str:
     """A C initializer of `record` from its numbers."""
-    numbers = [literal(float(value), precision) for value in values]
-    parts = []
-    for field, place in record.places():
-        text = ", ".join(numbers[place])
-        parts.append(f"{{{text}}}" if field.size else text)
-    return "{" + ", ".join(parts) + "}"
+    parts = [(literals(values[place], precision), field.size) for field, place in record.places()]
+    return "{" + ", ".join(f"{{{text}}}" if size else text for text, size in parts) + "}"
+
+
+def _call_of(board: Routine, inputs: Sequence[str]) -> str:
+    """The call of the function of a `board` with C expressions of its input vectors."""
+    given = ["in->rest", *(inputs[i] for i in inputs_used_by(board)), "in->memory", "in->command"]
+    return f"fly({', '.join(given)});"
 
 
 # Programs that check a state, and that answer where it cannot be used.
@@ -90,10 +111,8 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     programs = made.all_programs()
     texts = [function(program, precision) for program in programs.values()]
     texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
-    inertia = next(place for field, place in made.params.places() if field.name == "inertia")
+    inertia = made.params.place("inertia").start
     places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
-    board_inputs = ("board->memory", "in->measurement", "path", "gains_numbers(&board->gains)", "p")
-    fly = ["in->rest", *(board_inputs[i] for i in inputs_used_by(made.board)), "in->memory", "in->command"]
     law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
     sizes = {name: scratch(program).size for name, program in programs.items()}
     largest = max(
@@ -107,7 +126,9 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     return {
         "programs": "\n\n".join(texts),
         "conversions": "\n\n".join([*map(numbers_of, inputs), *map(record_of, outputs)]),
-        "call_board": f"fly({', '.join(fly)});",
+        "call_board": _call_of(
+            made.board, ("board->memory", "in->measurement", "path", "gains_numbers(&board->gains)", "p")
+        ),
         "call_begin": call(programs["begin"], ("forces",), ["board->memory"], "board->scratch.rest"),
         "call_share_safe": call(programs["share"], ("w", "p"), ["command"], "rest"),
         **{f"call_{name}": call(programs[name], given, [to], "rest") for name, (given, to) in calls.items()},
@@ -117,7 +138,61 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
         },
         "scratch": str(largest),
         "law_scratch": str(max(1, sizes["law"], *(sizes[name] for name in SAFE))),
-        "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia.start, inertia.start + 3)),
+        "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia, inertia + 3)),
         "largest": "DBL_MAX" if precision == "double" else "FLT_MAX",
         **places,
     }
+
+
+def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> dict[str, Any]:
+    """What the templates of a flight computer with sensors take beside the values of the law's own."""
+    readings = readings_record(sensing.sensors)
+    checks = {name: made.programs[name] for name in ("rod", "attitude")}
+    programs: dict[str, Program] = {"begin": sensing.begin, "sound": sensing.sound, **checks}
+    programs |= {program.name: program for program in sensing.board.programs}
+    texts = [function(program, precision) for program in programs.values()]
+    inputs = [readings, records.STATE, made.params]
+    inputs += [records.PATH] * made.follows
+    given = ("computer->memory", "in->readings", "path", "gains_numbers(&computer->gains)", "p")
+    sizes = [scratch(program).size for program in (sensing.begin, sensing.sound, *checks.values())]
+    locals_, fill = "    (void)reference;\n", ""
+    if made.follows:
+        locals_ = ""
+        fill = """\
+    const flypend_real *path = path_numbers(reference);
+    if (!numbers(path, FLYPEND_PATH)) {
+        return FLYPEND_NOT_FINITE;
+    }
+"""
+    return {
+        "programs": "\n\n".join([*texts, routine_function(sensing.board, precision)]),
+        "conversions": "\n\n".join([*map(numbers_of, inputs), record_of(records.STATE), record_of(made.rotors)]),
+        "readings_struct": struct(readings),
+        "readings_length": str(readings.length),
+        "sensors_memory": offsets(sensing.memory, "SENSORS_MEMORY"),
+        "scratch": str(max(1, routine_scratch(sensing.board), *sizes)),
+        "call_begin": call(sensing.begin, ("given.force", "s", "p"), ["computer->memory"], "computer->scratch.rest"),
+        "call_sound": call(sensing.sound, ("r",), ["defect"], "rest"),
+        "call_board": _call_of(sensing.board, given),
+        "locals": locals_,
+        "null": " || reference == NULL" if made.follows else "",
+        "fill": fill,
+        "command_delay": f"{sensing.sensors.command_delay or 0.0:.3g}",
+        "sensor_table": "\n".join(f" *   {line}" for line in describe(sensing.sensors)),
+        "start": _start(sensing.sensors),
+    }
+
+
+def describe(sensors: Sensors) -> list[str]:
+    """Rate, noise and latency of each stream, in words."""
+    return [
+        f"{name}: {s.rate:g} Hz, noise {s.noise:g}, latency {s.latency:g} s"
+        + (f", steps {s.quantisation:.4g}" if s.quantisation else "")
+        for name, s in sensors.streams.items()
+    ]
+
+
+def _start(sensors: Sensors) -> str:
+    s = sensors.start
+    vehicle = f"{s.x:g} m, {s.x_dot:g} m/s, {s.attitude:g} rad, {s.omega:g} rad/s"
+    return f"{vehicle}, and {s.y:g} rad, {s.y_dot:g} 1/s of the rod"

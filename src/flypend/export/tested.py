@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -26,17 +25,8 @@ MARGIN = 1.5  # of what the model needs: for a machine that is not the model, an
 STEP = 0.5  # m, to which the room is rounded up
 
 
-@dataclass(frozen=True)
-class Tested:
-    """What flights of the exported law show.
-
-    Parameters
-    ----------
-    lines : tuple of str
-        What was flown, and with which result.
-    poor : str
-        What is wrong, in a few words; empty if nothing is.
-    """
+class Tested(NamedTuple):
+    """What flights of the exported law show: `lines` say what was flown with which result, `poor` what is wrong."""
 
     lines: tuple[str, ...]
     poor: str = ""
@@ -45,7 +35,7 @@ class Tested:
         """Return a C comment, in ASCII."""
         told = [line for text in self.lines for line in textwrap.wrap(text, 114, subsequent_indent="  ")]
         verdict = textwrap.wrap(f"POOR: {self.poor}", 114) if self.poor else []
-        body = "\n".join(f" * {ascii_of(line)}".replace("*/", "* /") for line in [*verdict, *told])
+        body = "\n".join(f" * {ascii_of(line)}" for line in [*verdict, *told])
         return f"/* Flown before it was exported, in flypend's own model:\n{body}\n */\n"
 
 
@@ -75,15 +65,7 @@ def fly_tests(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Tested:
 
 
 class Room(NamedTuple):
-    """Room around a vehicle that hovers with the rod hanging, before a swing-up.
-
-    Parameters
-    ----------
-    height : float
-        Above the ground, m.
-    aside : float
-        In any other direction, m.
-    """
+    """Room before a swing-up, around a vehicle in hover: `height` above ground and `aside` in other directions, m."""
 
     height: float
     aside: float

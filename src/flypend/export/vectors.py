@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -27,8 +27,7 @@ FLIGHTS, STEPS = 4, 25
 PATH_SPREAD, FORCE_SPREAD = 0.5, 0.05
 
 
-@dataclass(frozen=True)
-class Vectors:
+class Vectors(NamedTuple):
     """Inputs and outputs, each (n, length of its record)."""
 
     state: Any
@@ -55,7 +54,7 @@ def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision)
     packed = start.packed()
     packed[:, :3] = rng.uniform(-2, 2, (count, 3))
     forces = FORCE_SPREAD * vehicle.weight * rng.uniform(-1, 1, (count, 6))
-    state = records.state_numbers(packed, forces)
+    state = np.concatenate([packed, forces], axis=-1)
     path = PATH_SPREAD * rng.uniform(-1, 1, (count, records.PATH.length))
     reference = np.array(path_reference(vehicle)(path.T, forces.T)).T
     return round_to(state, precision), round_to(reference, precision)
@@ -82,8 +81,7 @@ def path_reference(vehicle: Vehicle) -> Any:
     return ca.Function("path_reference", [path, forces], [ca.cse(reference_numbers(vehicle, path, forces[3:]))])
 
 
-@dataclass(frozen=True)
-class Flights:
+class Flights(NamedTuple):
     """Flights one after the other: what the board is given, and what it answers, each (flights × steps, length)."""
 
     measurement: Any

@@ -11,6 +11,8 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
+import numpy as np
+
 from flypend import errors, signals
 from flypend.board.command import usable_lead
 from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
@@ -18,8 +20,7 @@ from flypend.compile.record import Record
 from flypend.errors import InputError
 from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
-from flypend.export.sensors import FILES, sensor_values
-from flypend.export.source import ascii_of, functions, initializer, offsets, struct, unread
+from flypend.export.source import ascii_of, functions, initializer, literals, offsets, sensor_values, struct, unread
 from flypend.export.tested import fly_tests
 from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
@@ -29,8 +30,11 @@ from flypend.plants.sensors import Sensors, sensors_called
 
 HEADER, GUARD = "flypend_law.h", "#ifndef FLYPEND_LAW_H\n"
 CORE = (HEADER, "flypend_law.c")
-BESIDE = ("flypend_test.c", "flypend_fuzz.c", "CMakeLists.txt", "README.md")
-ADAPTERS = ("adapters/flypend_frames.h", "adapters/flypend_frames.c")
+WITH_SENSORS = ("flypend_sensors.h", "flypend_sensors.c")
+BESIDE = (
+    "flypend_test.c", "flypend_fuzz.c", "flypend_vectors.h", "CMakeLists.txt", "README.md",
+    "adapters/flypend_frames.h", "adapters/flypend_frames.c",
+)  # fmt: skip
 # Largest relative difference of a test vector.
 TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
@@ -91,7 +95,9 @@ def export_c(
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
-    texts = files(interface(law, vehicle, rate, sensors_called(sensors, "sensors")), precision)
+    made = interface(law, vehicle, rate, sensors_called(sensors, "sensors"))
+    values = values_of(made, precision) | _vectors(made, precision)
+    texts = core(made, precision) | {name: fill(name, values) for name in BESIDE}
     if check:
         found = fly_tests(law, vehicle, rate)
         texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)
@@ -101,25 +107,14 @@ def export_c(
     return Path(out)
 
 
-def files(made: Interface, precision: Precision) -> dict[str, str]:
-    """Name and text of every file."""
-    values = values_of(made, precision)
-    texts = {name: fill(name, values) for name in (*CORE, *BESIDE, *ADAPTERS)}
-    return texts | {"flypend_vectors.h": _vectors(made, precision)} | _with_sensors(made, precision)
-
-
-def _with_sensors(made: Interface, precision: Precision) -> dict[str, str]:
-    """Name and text of the files of a flight computer with sensors, if there are any."""
-    if made.sensing is None:
-        return {}
-    values = _add_mark(values_of(made, precision) | sensor_values(made, made.sensing, precision))
-    return {name: fill(name, values) for name in FILES}
-
-
 def core(made: Interface, precision: Precision) -> dict[str, str]:
-    """Name and text of the two files that make the library."""
+    """Name and text of the files that make the library: two, and two more for a flight computer with sensors."""
     values = values_of(made, precision)
-    return {name: fill(name, values) for name in CORE} | _with_sensors(made, precision)
+    texts = {name: fill(name, values) for name in CORE}
+    if made.sensing is not None:
+        values = _add_mark(values | sensor_values(made, made.sensing, precision))
+        texts |= {name: fill(name, values) for name in WITH_SENSORS}
+    return texts
 
 
 def fill(name: str, values: dict[str, Any]) -> str:
@@ -131,14 +126,14 @@ def fill(name: str, values: dict[str, Any]) -> str:
 def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
     """What the templates take."""
     law, vehicle, computer = made.law, made.vehicle, made.law.computer
-    parts = functions(made, precision)
     gains = [law.numbers.get(field.name, 0.0) for field in made.gains.fields]
     thrust_scale, moment_scale = vectors.scales(vehicle)
     lengths = {
         "reference_length": records.REFERENCE.length, "path_length": records.PATH.length,
         "gains_length": made.gains.length, "params_length": made.params.length,
     }  # fmt: skip
-    values = parts | {name: str(length) for name, length in lengths.items()} | _optional(made)
+    values = functions(made, precision) | _optional(made)
+    values |= {name: str(length) for name, length in lengths.items()}
     values |= {
         "law": ascii_of(law.name),
         "vehicle": ascii_of(vehicle.name),
@@ -156,11 +151,11 @@ def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
         "structs": "\n\n".join(_structs(made)),
         "gains": initializer(made.gains, gains, precision),
         "params": initializer(made.params, records.params_of(vehicle), precision),
-        "spins": ", ".join(literal(float(spin), precision) for spin in vehicle.sharing()[2]),
-        "place_p": str(next(place.start for field, place in records.REFERENCE.places() if field.name == "p")),
+        "spins": literals(vehicle.sharing()[2], precision),
+        "place_p": str(records.REFERENCE.place("p").start),
         "lead": f"{usable_lead(law, vehicle, made.loop.sampled):.3g}",
-        "zero_path": initializer(records.PATH, [0.0] * records.PATH.length, precision),
-        "zero_measurement": initializer(records.MEASUREMENT, [0.0] * records.MEASUREMENT.length, precision),
+        "zero_path": initializer(records.PATH, np.zeros(records.PATH.length), precision),
+        "zero_measurement": initializer(records.MEASUREMENT, np.zeros(records.MEASUREMENT.length), precision),
         "radians": literal(math.pi / 180, precision),
         "sqrt": "sqrt" if precision == "double" else "sqrtf",
         "baked": _constants_in_words(made),
@@ -201,8 +196,8 @@ def _optional(made: Interface) -> dict[str, str]:
 
 def _constants_in_words(made: Interface) -> str:
     """What the code holds as constants, in words."""
-    inertia = next(field for field in made.params.fields if field.name == "inertia")
-    diagonal = "a diagonal inertia matrix" if inertia.size == 3 else "a full inertia matrix"
+    inertia = made.params.place("inertia")
+    diagonal = "a diagonal inertia matrix" if inertia.stop - inertia.start == 3 else "a full inertia matrix"
     text = f"the number of rotors ({made.rotors.length}), their spins, {diagonal}."
     options = made.law.options
     if made.constant:
@@ -238,48 +233,23 @@ def _structs(made: Interface) -> list[str]:
     ]
 
 
-def _vectors(made: Interface, precision: Precision) -> str:
+def _vectors(made: Interface, precision: Precision) -> dict[str, str]:
+    """What the template of the test vectors takes."""
     found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
     flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision, made.law)
-    kinds: tuple[Record, ...] = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
-    lines = [
-        "/* Random inputs, and what flypend answers in Python. */",
-        "#ifndef FLYPEND_VECTORS_H",
-        "#define FLYPEND_VECTORS_H",
-        '#include "flypend_law.h"',
-        "",
-        f"#define FLYPEND_VECTOR_TOLERANCE {TOLERANCE[precision]!r}",
-        f"#define FLYPEND_FLIGHT_STEPS {vectors.STEPS}",
-        "",
-        *_typedef("vector", kinds),
-        "",
-        "static const flypend_vector flypend_vectors[] = {",
-        *_rows(kinds, (found.state, found.reference, found.wrench, found.rotors), precision),
-        "};",
-        "",
-        "/* Flights of the board one after the other, FLYPEND_FLIGHT_STEPS control periods each. */",
-    ]
-    kinds = (records.MEASUREMENT, records.PATH, made.rotors)
-    lines += [
-        *_typedef("period", kinds),
-        "",
-        "static const flypend_period flypend_flights[] = {",
-        *_rows(kinds, (flights.measurement, flights.path, flights.rotors), precision),
-    ]
-    return "\n".join([*lines, "};", "#endif", ""])
+    answered = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
+    flown = (records.MEASUREMENT, records.PATH, made.rotors)
+    return {
+        "vector_tolerance": repr(TOLERANCE[precision]),
+        "steps": str(vectors.STEPS),
+        "vectors": _rows(answered, found, precision),
+        "flights": _rows(flown, flights, precision),
+    }
 
 
-def _typedef(name: str, kinds: Sequence[Record]) -> list[str]:
-    return [
-        "typedef struct {",
-        *(f"    flypend_{record.name} {record.name};" for record in kinds),
-        f"}} flypend_{name};",
-    ]
-
-
-def _rows(kinds: Sequence[Record], columns: Sequence[Any], precision: Precision) -> list[str]:
+def _rows(kinds: Sequence[Record], columns: Sequence[Any], precision: Precision) -> str:
     rows = []
     for row in zip(*columns, strict=True):
         parts = [initializer(record, part, precision) for record, part in zip(kinds, row, strict=True)]
         rows.append("    {" + ",\n     ".join(parts) + "},")
-    return rows
+    return "\n".join(rows)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -12,10 +12,6 @@ from typing import Any
 from flypend import errors, laws
 from flypend.laws import Law
 from flypend.model import State, Vehicle, vehicle
-
-_FACTORIES: Mapping[str, Callable[..., Law]] = {
-    "printed": laws.printed, "corrected": laws.corrected, "repaired": laws.repaired
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -50,7 +46,9 @@ class Experiment:
 
     def law(self, name: str = "corrected", **options: Any) -> Law:
         """Return the law `name` (printed, corrected, repaired) with this row's gains and additional `options`."""
-        return _FACTORIES[errors.one_of("law", name, _FACTORIES)](**self.gains, **options)
+        known = ("printed", "corrected", "repaired")
+        made: Law = getattr(laws, errors.one_of("law", name, known))(**self.gains, **options)
+        return made
 
 
 @cache

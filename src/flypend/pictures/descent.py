@@ -13,9 +13,8 @@ from matplotlib.patches import Patch
 from flypend.flight.trajectory import Trajectory
 from flypend.laws.named import THEOREM_1
 from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, PINK, RED
-from flypend.paper.basin import Basin
-from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
-from flypend.pictures.style import style_named
+from flypend.paper.descent import Basin
+from flypend.pictures.style import LABEL, SMALL, new_figure, rule, style_named
 
 STYLES = ((INK, "-"), (RED, "--"), (GREEN, "-."), (BLUE, ":"), (ORANGE, (0, (5, 1))), (PINK, (0, (1, 1))))
 LYAPUNOV_UNITS = {**dict.fromkeys(THEOREM_1, "1/s²"), "almost_global": "m²/s²"}

@@ -36,25 +36,12 @@ ELEVATION = np.deg2rad(12.0)  # of the side camera: level rotors appear as thin 
 
 
 def camera_for(run: Trajectory, view: str, *, elevation: float = ELEVATION, distance: float = np.inf) -> Camera:
-    """Return the camera for a view of `run`. It looks at the origin; subtract the pivot position to follow the vehicle.
+    """Return the camera for a `view` of `run`. It looks at the origin; subtract the pivot to follow the vehicle.
 
-    Parameters
-    ----------
-    run : Trajectory
-        In either frame.
-    view : "side" or "axis"
-        "side" looks horizontally, across the direction in which the rod moves most; gravity points down the screen.
-        "axis" is the paper's camera on its −e₃ axis. In the paper e₃ points along gravity, so the camera looks down:
-        gravity points into the screen, and a hanging rod appears as a point.
-    elevation : float
-        Elevation of the side camera above the horizon, rad.
-    distance : float
-        Distance from the origin, m.
-
-    Raises
-    ------
-    InputError
-        If the view is unknown.
+    "side" looks horizontally, across the direction in which the rod moves most; gravity points down the screen. "axis"
+    is the paper's camera on its −e₃ axis. In the paper e₃ points along gravity, so the camera looks down: gravity
+    points into the screen, and a hanging rod appears as a point. `elevation` (rad) is that of the side camera above
+    the horizon, `distance` (m) from the origin. Raises InputError if the view is unknown.
     """
     if errors.one_of("view", view, VIEWS) == "axis":
         return Camera(direction=-geometry.E3, up=geometry.E2, distance=distance)
@@ -97,18 +84,8 @@ def sketch_at(run: Trajectory, times: Any, states: State) -> Sketch:
 def draw(ax: Any, run: Trajectory, camera: Camera, middle: Any, t: float, *, since: float) -> None:
     """Draw `run` at time `t` around the point `middle` of `ax`, with the path of its bob and faint rods along it.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes
-        Axes in metres.
-    run : Trajectory
-        In either frame.
-    camera : Camera
-        A camera looking at the origin, where the pivot is placed.
-    middle : (2,)
-        Position of the pivot in `ax`.
-    t, since : float
-        Time of the drawing and start of the bob's path (of a whirling rod, at most the last turn); s.
+    `ax` is in metres; at `middle` (2,) is the pivot, which is at the origin, where `camera` looks. The path begins at
+    `since`, s; of a whirling rod it is at most the last turn.
     """
 
     def screen(points: Any) -> Any:

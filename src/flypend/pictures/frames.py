@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,10 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
+from matplotlib.patches import PathPatch, Polygon
+from matplotlib.path import Path
+from matplotlib.textpath import TextPath
+from matplotlib.transforms import IdentityTransform
 
 from flypend import geometry
 from flypend.flight.trajectory import Trajectory
@@ -25,9 +29,10 @@ from flypend.pages import sketch
 from flypend.pages.camera import Camera, depth, magnification, project
 from flypend.pages.sketch import Sketch
 from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED, STATES
-from flypend.pictures import drawing, lettering
+from flypend.pictures import drawing
 
 Frame = Any  # memoryview of (height, width, 4) bytes, valid until the next frame is drawn
+Pair = tuple[float, float]
 Part = Callable[[int], list[Any]]  # updates artists for a frame and returns them in drawing order
 
 TRAIL = 0.5  # length of the bob's trail, s of flight
@@ -85,7 +90,7 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
     return render
 
 
-def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> tuple[float, float]:
+def _scene(ax: Any, run: Trajectory, size: tuple[int, int]) -> Pair:
     """Set up the scene around the pivot; return half its width and height, m."""
     pixels = (size[0] * SCENE[2], size[1] * SCENE[3])
     scale = ZOOM * sketch.reach(run.vehicle) / min(pixels)
@@ -125,7 +130,7 @@ def _strip(ax: Any, run: Trajectory, t: Any, states: State) -> None:
     ax.text(1.0, 1.08, f"{run.law} law", transform=ax.transAxes, ha="right", fontsize=9)
 
 
-def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: tuple[float, float]) -> list[Part]:
+def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: Pair) -> list[Part]:
     """Grid lines fixed in the world, in the plane of the pivot x (n, 3; e₃ up), with coordinate labels."""
     if view == "axis":  # coordinates in the frame of the run
         across, up, origin, names = geometry.E1, geometry.E2, 0.0, ("x₁ = ", "x₂ = ")
@@ -143,14 +148,7 @@ def _grids(ax: Any, run: Trajectory, x: Any, camera: Camera, view: str, half: tu
 
 
 def _ruler(
-    ax: Any,
-    at: Any,
-    spacing: float,
-    slant: float,
-    half: tuple[float, float],
-    name: str,
-    sign: int,
-    upright: bool = False,
+    ax: Any, at: Any, spacing: float, slant: float, half: Pair, name: str, sign: int, upright: bool = False
 ) -> Part:
     """Parallel lines every `spacing` m that scroll past a pivot at coordinate `at` (n,), to the right or `upright`.
 
@@ -160,7 +158,7 @@ def _ruler(
     reach, across = half
     low = (0.92 if upright else 1.0) * reach  # keep lines clear of the labels at the bottom
     line = ax.add_line(Line2D([], [], color=LINE, linewidth=1.0, animated=True))
-    labels = [lettering.words(ax, 8, "#5a5a5a", right=upright) for _ in range(int(2 * reach / slant / spacing) + 2)]
+    labels = [lettering(ax, 8, "#5a5a5a", right=upright) for _ in range(int(2 * reach / slant / spacing) + 2)]
 
     def part(i: int) -> list[Any]:
         first, last = np.ceil((at[i] - low / slant) / spacing), np.floor((at[i] + reach / slant) / spacing)
@@ -232,7 +230,7 @@ def _readout(ax: Any, t: Any, states: State) -> Part:
     """Time, height above the start and speed of the vehicle, on the left of `ax`."""
     rise, pace = np.round(states.x[:, 2] - states.x[0, 2], 1) + 0.0, geometry.norm(states.x_dot)
     digits = 2 if t[-1] >= 1 else 4
-    clock, below = lettering.words(ax, 13, INK), lettering.words(ax, 9, INK)
+    clock, below = lettering(ax, 13, INK), lettering(ax, 9, INK)
 
     def part(i: int) -> list[Any]:
         words = f"height {rise[i]:+.1f} m, speed {pace[i]:.1f} m/s"
@@ -249,3 +247,47 @@ def _cursor(ax: Any, t: Any) -> Part:
         return [line]
 
     return part
+
+
+# Text that changes between frames -------------------------------------------------------------------------------------
+
+
+def lettering(ax: Any, fontsize: float, color: str, *, right: bool = False) -> Callable[[str, Any], Any]:
+    """Create changeable text: returns `place(words, at)`, which sets its string and position in `ax` and returns it.
+
+    The text starts at `at`, or ends there if `right`. It is drawn from cached glyph outlines: laying out a string
+    again, as matplotlib's `Text` does, takes longer than the rest of a frame.
+    """
+    patch = ax.add_patch(PathPatch(Path([[0.0, 0.0]]), facecolor=color, edgecolor="none", animated=True))
+    patch.set_transform(IdentityTransform())
+    patch.set_clip_on(False)
+    scale = fontsize * ax.figure.dpi / 72
+
+    def place(words: str, at: Any) -> Any:
+        vertices, codes, width = outline(words.replace("-", "−"))
+        corner = ax.transData.transform(at) - (scale * width if right else 0.0, -0.2 * scale)
+        patch.set_path(Path(scale * vertices + corner, codes))
+        return patch
+
+    return place
+
+
+@lru_cache(maxsize=4096)
+def outline(words: str) -> tuple[Any, Any, float]:
+    """Vertices (n, 2), path codes (n,) and width of the string `words` at font size 1."""
+    vertices, codes, x = [np.zeros((0, 2))], [np.zeros(0, dtype=Path.code_type)], 0.0
+    for character in words:
+        outline, advance = glyph(character)
+        if outline is not None:
+            vertices.append(np.add(outline.vertices, (x, 0.0)))
+            codes.append(outline.codes)
+        x += advance
+    return np.concatenate(vertices), np.concatenate(codes), x
+
+
+@cache
+def glyph(character: str) -> tuple[Any, float]:
+    """Outline of `character` at font size 1 (None for a space), and its advance width."""
+    bar, pair = (TextPath((0, 0), words, size=1) for words in ("|", character + "|"))
+    outline = None if character.isspace() else TextPath((0, 0), character, size=1)
+    return outline, float(pair.vertices[:, 0].max() - bar.vertices[:, 0].max())

@@ -13,8 +13,7 @@ from flypend.model.body import MOUNTS
 from flypend.model.mount import clearances
 from flypend.model.vehicle import Vehicle
 from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, REAR, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, new_figure
 
 LEAN = np.radians(20.0)  # of the rod in the side views
 BEARINGS = np.radians(np.arange(0.0, 360.0, 0.5))
@@ -113,12 +112,9 @@ def _from_the_side(axes: Any, vehicle: Vehicle, mount: str) -> None:
     axes.set(xlim=(-wide, wide), ylim=(-1.08 * reach, 1.08 * reach), aspect="equal", xticks=[], yticks=[])
     own = mount == vehicle.mount
     axes.set_title(mount, fontsize=LABEL, fontweight="bold" if own else "normal")
-    axes.set_xlabel(_notes(vehicle)[mount], fontsize=SMALL)
-
-
-def _notes(vehicle: Vehicle) -> dict[str, str]:
-    return {
+    notes = {
         "gimbal": "a ring about it all;\nnothing is in the way",
         "hub": "a ball joint; swings\nthrough a gap",
-        "cup": f"stands loosely, to\n{np.degrees(vehicle.body.cup_angle):.0f}° from the thrust",
+        "cup": f"stands loosely, to\n{np.degrees(body.cup_angle):.0f}° from the thrust",
     }
+    axes.set_xlabel(notes[mount], fontsize=SMALL)

@@ -17,8 +17,7 @@ from flypend import palette
 from flypend.errors import InputError
 from flypend.flight.metrics import wilson
 from flypend.palette import INK
-from flypend.pictures.canvas import LABEL, SMALL, new_figure, symbol
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, new_figure, symbol
 from flypend.studies.sweep.bins import EDGE, Cells, Runs, check_plane, default_plane, label, plane, side, sphere
 from flypend.studies.sweep.chunk import CAUSES
 
@@ -78,14 +77,13 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", _rates(panels))
     for axis, panel in zip(rows[0], panels, strict=True):
         _hatch(axis, panel)
+        axis.set_title(panel.name, fontsize=LABEL)
     _row(figure, rows[1], panels, "mean settling time (s)", lambda c: c.settling, "viridis", None)
     _row(figure, rows[2], panels, "mean excursion (m)", lambda c: c.excursion, "viridis", None)
     _causes(figure, rows[3], panels, total)
     for place, row in enumerate(rows):
         for axis, panel in zip(row, panels, strict=True):
             _frame(axis, panel, names, last=place == len(rows) - 1)
-    for axis, panel in zip(rows[0], panels, strict=True):
-        axis.set_title(panel.name, fontsize=LABEL)
     return figure
 
 
@@ -133,14 +131,20 @@ def _row(
 ) -> None:
     """Draw one quantity in every panel, on a common colour scale."""
     norm = norm or _scale([of(panel.cells) for panel in panels])
+    values = [np.ma.masked_invalid(panel.square(of(panel.cells))) for panel in panels]
+    _mesh(figure, axes, panels, words, values, cmap=colours, norm=norm)
+
+
+def _mesh(figure: Figure, axes: Any, panels: Sequence[_Panel], words: str, values: Any, **scale: Any) -> Any:
+    """Draw the `values` of all cells in every panel; return the colour bar of their common scale."""
     image = None
-    for axis, panel in zip(axes, panels, strict=True):
-        values = np.ma.masked_invalid(panel.square(of(panel.cells)))
-        image = axis.pcolormesh(*panel.edges, values, cmap=colours, norm=norm, rasterized=True)
+    for axis, panel, shown in zip(axes, panels, values, strict=True):
+        image = axis.pcolormesh(*panel.edges, shown, rasterized=True, **scale)
         _clip(axis, panel, image)
     bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
     bar.set_label(words, fontsize=LABEL)
     bar.ax.tick_params(labelsize=SMALL)
+    return bar
 
 
 def _rates(panels: Sequence[_Panel]) -> Normalize:
@@ -175,20 +179,17 @@ def _unsure(panel: _Panel) -> Any:
 
 def _causes(figure: Figure, axes: Any, panels: Sequence[_Panel], total: Cells) -> None:
     """Draw the most frequent cause of failure in each cell; white where no run failed."""
-    colours = ListedColormap(["#ffffff", *FAILED])
-    image = None
-    for axis, panel in zip(axes, panels, strict=True):
+    values = []
+    for panel in panels:
         failures = panel.cells.causes[1:]
         most = np.where(failures.sum(axis=0) > 0, 1 + np.argmax(failures, axis=0), 0)
-        shown = np.ma.masked_where(panel.square(panel.cells.runs) == 0, panel.square(most))
-        image = axis.pcolormesh(*panel.edges, shown, cmap=colours, vmin=-0.5, vmax=len(CAUSES) - 0.5, rasterized=True)
-        _clip(axis, panel, image)
+        values.append(np.ma.masked_where(panel.square(panel.cells.runs) == 0, panel.square(most)))
+    scale = {"cmap": ListedColormap(["#ffffff", *FAILED]), "vmin": -0.5, "vmax": len(CAUSES) - 0.5}
+    bar = _mesh(figure, axes, panels, "most frequent cause of failure", values, **scale)
     failed = max(float(total.causes[1:].sum()), 1.0)
-    bar = figure.colorbar(image, ax=list(axes), shrink=0.85, pad=0.02, aspect=16)
     shares = [f"{name} {100 * total.causes[code].sum() / failed:.3g} %" for code, name in enumerate(CAUSES)][1:]
     bar.set_ticks(range(len(CAUSES)), labels=["none", *shares])
-    bar.ax.tick_params(labelsize=SMALL, length=0)
-    bar.set_label("most frequent cause of failure", fontsize=LABEL)
+    bar.ax.tick_params(length=0)
     handles = [Patch(facecolor=EMPTY, label="no runs, or none settled")]
     if any(np.any(_unsure(panel)) for panel in panels):
         words = f"interval of the success rate wider than {100 * WIDE:.0f} %"

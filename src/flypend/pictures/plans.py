@@ -9,15 +9,13 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from matplotlib.ticker import LogLocator, NullFormatter
 
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import norm
 from flypend.palette import BLUE, GREEN, GREY, INK, RED, SERIES
-from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
 from flypend.pictures.maps import hemisphere
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, distribution, new_figure, plain, rule
 from flypend.planning.result import Plan
 from flypend.planning.window import Window
 from flypend.studies.limit import Front, Strays
@@ -93,17 +91,10 @@ def front_figure(front: Front, law: Trajectory | None = None) -> Figure:
         if judged.success:
             axes.plot(judged.settling, judged.excursion, "D", color=RED, ms=5, label=f"{law.law} law, settled")
     axes.set(xlabel="time until hover (s)", ylabel="excursion (m)", yscale="log")
-    _plain(axes.yaxis)
+    plain(axes.yaxis, 1.0, 3.0)
     axes.legend(fontsize=SMALL, frameon=False)
     rule([axes])
     return figure
-
-
-def _plain(axis: Any) -> None:
-    """Label 1 and 3 of each decade of a logarithmic axis."""
-    axis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
-    axis.set_major_formatter("{x:g}")
-    axis.set_minor_formatter(NullFormatter())
 
 
 def strays_figure(strays: Strays) -> Figure:
@@ -124,21 +115,16 @@ def strays_figure(strays: Strays) -> Figure:
             discs.append(axes)
     bar = figure.colorbar(image, ax=discs, orientation="horizontal", shrink=0.8, aspect=40)
     bar.set_label("excursion (m)", fontsize=LABEL)
-    _plain(bar.ax.xaxis)
+    plain(bar.ax.xaxis, 1.0, 3.0)
     bar.ax.tick_params(labelsize=SMALL)
     far, spent = figure.add_subplot(grid[: len(rows), 2]), figure.add_subplot(grid[len(rows) :, 2])
     for i, (name, values) in enumerate(rows.items()):
-        _shares(far, values, SERIES[i], name)
-    _shares(spent, 1e3 * strays.plans.solve_time, SERIES[len(rows) - 1], "plan")
+        distribution(far, values[np.isfinite(values)], len(values), color=SERIES[i], lw=1.2, label=name)
+    times = strays.plans.solve_time
+    distribution(spent, 1e3 * times[np.isfinite(times)], len(times), color=SERIES[len(rows) - 1], lw=1.2)
     far.set(xlabel="excursion (m)", ylabel="starts within (%)", xscale="log")
-    _plain(far.xaxis)
+    plain(far.xaxis, 1.0, 3.0)
     far.legend(fontsize=SMALL, frameon=False)
     spent.set(xlabel="processor time of a plan (ms)", ylabel="plans within (%)")
     rule([far, spent])
     return figure
-
-
-def _shares(axes: Any, values: Any, color: str, label: str) -> None:
-    """Draw the share of `values` up to each; those that are not finite never count."""
-    good = np.sort(values[np.isfinite(values)])
-    axes.step(good, 100 * np.arange(1, len(good) + 1) / len(values), where="post", color=color, lw=1.2, label=label)

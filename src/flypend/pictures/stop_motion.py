@@ -14,9 +14,8 @@ from flypend.pages import sketch
 from flypend.pages.camera import project
 from flypend.palette import GREEN, GREY, INK, ORANGE, RED
 from flypend.pictures import drawing
-from flypend.pictures.canvas import LABEL, SMALL, decimals, new_figure, title
 from flypend.pictures.drawing import TRAIL
-from flypend.pictures.style import Style, letter, style_of
+from flypend.pictures.style import LABEL, SMALL, Style, decimals, letter, new_figure, style_of, title
 
 PICTURES = 0.726  # fraction of the figure width for the stop-motion pictures
 

@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
 
 from flypend.palette import GREY, SERIES
-from flypend.pictures.canvas import SMALL, new_figure, rule
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import PAGE, SMALL, distribution, new_figure, plain, rule
 from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
 from flypend.studies.margins import LEAST_RATE, Margin
@@ -116,12 +114,8 @@ def _strays(axes: Any, checks: Mapping[str, Check]) -> None:
         if "random" not in check.tasks:
             continue
         flown = check.tasks["random"]
-        values = np.sort(flown.excursion[flown.success])
-        share = 100 * np.arange(1, len(values) + 1) / len(flown)
         label = f"{law} on {check.vehicle.name}: {100 * flown.rate:.1f} % of {len(flown)}"
-        axes.step(values, share, where="post", color=SERIES[i % len(SERIES)], lw=1, label=label)
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set(xlabel="excursion from random starts (m)", ylabel="stand within (%)", ylim=(-4, 104))
+        style = {"color": SERIES[i % len(SERIES)], "lw": 1, "label": label}
+        distribution(axes, flown.excursion[flown.success], len(flown), **style)
+    axes.set(xlabel="excursion from random starts (m)", xscale="log", ylabel="stand within (%)", ylim=(-4, 104))
+    plain(axes.xaxis, 1.0, 2.0, 5.0)

@@ -1,17 +1,27 @@
-"""Figure formats: for a two-column paper or for slides. Both share font sizes and line widths."""
+"""Figure formats, for a two-column paper or for slides, and what all figures share: font sizes, axes, names, titles.
+
+matplotlib is imported inside functions: a command that draws nothing checks a style, too.
+"""
 
 from __future__ import annotations
 
 import difflib
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from flypend import errors
+from flypend.flight.trajectory import Trajectory
+from flypend.laws.named import FACTORIES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLUMN, PAGE = 3.5, 7.16  # widths of one and of two columns in IEEE journals, in
+LABEL, SMALL = 8.0, 7.0  # font sizes, pt
 SERIF = ("serif", "times", "roman", "georgia", "garamond", "libertine", "termes", "stix")
 
 
@@ -24,7 +34,7 @@ class Style:
     half, full : (2,)
         Width and height of a small and of a large figure.
     panels : tuple of str
-        What a large figure of a run shows, row by row; see `flypend.pictures.panels`.
+        What a large figure of a run shows, row by row; see `flypend.pictures.figures`.
     columns : int
         Number of panel columns of a large figure.
     wide : float
@@ -79,7 +89,7 @@ def style_of(style: str | Style) -> Style:
 
 def letter(figure: Figure, style: Style) -> Figure:
     """Set all text of `figure`, formulas included, in the font of `style`, and return the figure."""
-    from matplotlib.text import Text  # imported here: a command that draws nothing checks a style, too
+    from matplotlib.text import Text
 
     if style.font:
         serif = any(word in style.font.lower() for word in SERIF) and "sans" not in style.font.lower()
@@ -105,3 +115,60 @@ def _find_font(font: str) -> str:
         hint = f" (did you mean {near[0]!r}?)" if near else ""
         raise errors.InputError("--font", "a font family that is installed", f"{font!r}{hint}") from None
     return font
+
+
+# What all figures share ----------------------------------------------------------------------------------------------
+
+
+def new_figure(width: float, height: float, dpi: float = 200) -> Figure:
+    """Create an empty figure of `width` × `height` inches at `dpi` on an Agg canvas, independent of pyplot."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), dpi=dpi, layout="constrained", facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def title(run: Trajectory, between: str = ", ") -> str:
+    """The name of the law, those of its options that are not the usual ones, and its gains, joined by `between`."""
+    usual = FACTORIES[run.law]().values if run.law in FACTORIES else {}
+    chosen = {name: value for name, value in run.gains.items() if isinstance(value, str) and value != usual.get(name)}
+    options = [f"{name} {value}" for name, value in chosen.items()]
+    gains = [f"{symbol(name)} = {value:g}" for name, value in run.gains.items() if name.startswith("k_")]
+    return between.join(filter(None, [", ".join([f"{run.law} law", *options]), ", ".join(gains)]))
+
+
+def symbol(name: str) -> str:
+    """How figures write the gain `name`: k_1 as a letter with its index, rod_damping in words."""
+    return f"${name}$" if re.fullmatch(r"[a-zA-Z]_\w", name) else name.replace("_", " ")
+
+
+def decimals(run: Trajectory) -> int:
+    """Number of decimals that distinguish the snapshot times of `run`."""
+    return int(np.clip(2 - np.floor(np.log10(run.t[-1])), 2, 6)) if run.t[-1] > 0 else 2
+
+
+def rule(panels: Iterable[Any]) -> None:
+    """Give each of the axes `panels` small numbers, labels of one size, and a light grid behind the data."""
+    for axes in panels:
+        axes.tick_params(which="both", labelsize=SMALL, width=0.6, length=2.5)
+        axes.xaxis.label.set_size(LABEL)
+        axes.yaxis.label.set_size(LABEL)
+        axes.grid(visible=True, color="#e3e3e3", linewidth=0.5)
+        axes.set_axisbelow(True)
+
+
+def distribution(axes: Any, values: Any, total: int, **style: Any) -> None:
+    """Draw the share of a `total` number of runs, in per cent, that has one of `values` up to each."""
+    share = 100 * np.arange(1, len(values) + 1) / total
+    axes.step(np.sort(values), share, where="post", **style)
+
+
+def plain(axis: Any, *labelled: float) -> None:
+    """Label the numbers `labelled` of each decade of a logarithmic `axis`, without exponents."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=labelled))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())

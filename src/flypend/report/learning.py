@@ -13,8 +13,7 @@ from flypend.files.whole import save_figure
 from flypend.laws.learned import save
 from flypend.learning.training import Entry, Learner
 from flypend.palette import BLUE, GREEN, GREY, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, new_figure, rule
 from flypend.report.text import write_json
 
 

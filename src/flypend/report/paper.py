@@ -15,9 +15,8 @@ from flypend.flight.trajectory import Trajectory
 from flypend.laws import inverted
 from flypend.model import State, vehicle
 from flypend.paper import experiment, experiment_names
-from flypend.paper.claims import SETTLED, Finding, Runs, Verdict, theorem_claims
+from flypend.paper.claims import SETTLED, Finding, Runs, Verdict, fly_repaired, theorem_a_claims, theorem_claims
 from flypend.paper.defects import findings, fly_all
-from flypend.paper.proved import fly_repaired, theorem_a_claims
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks

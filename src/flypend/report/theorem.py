@@ -19,10 +19,8 @@ from flypend.flight.trajectory import Trajectory
 from flypend.laws import almost_global, repaired
 from flypend.model import vehicle
 from flypend.paper import experiment, experiment_names
-from flypend.paper.basin import basin
-from flypend.paper.claims import Verdict
-from flypend.paper.descent import Descent, descend, laws
-from flypend.paper.proved import fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
+from flypend.paper.claims import Verdict, fly_repaired, fly_swing_ups, theorem_a_claims, theorem_b_claims
+from flypend.paper.descent import Descent, basin, descend, laws
 from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.text import Column

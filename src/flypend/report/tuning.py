@@ -12,8 +12,7 @@ from flypend import __version__
 from flypend.files.staging import staging
 from flypend.files.whole import save_figure
 from flypend.palette import BLUE, GREEN, GREY, ORANGE, RED
-from flypend.pictures.canvas import LABEL, SMALL, new_figure, rule, symbol
-from flypend.pictures.style import PAGE
+from flypend.pictures.style import LABEL, PAGE, SMALL, new_figure, rule, symbol
 from flypend.report.text import write_json
 from flypend.settings.runfile import run_text
 from flypend.studies.tune import Tuned

@@ -445,7 +445,7 @@ void flypend_nmpc_begin(flypend_nmpc *n, const flypend_nmpc_table *plan)
     for (k = 0; k < ALL; k++) {
         real own, (*x)[STATE] = n->best.states, (*u)[ROTORS] = n->best.commands, (*slack)[LIMITS] = n->slack;
         (void)own;
-        $call_begin
+        $call_limits
         for (i = 0; i < LIMITS; i++) {
             n->dual[k][i] = $barrier / n->slack[k][i];
         }

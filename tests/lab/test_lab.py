@@ -34,8 +34,7 @@ from flypend.lab import answers
 from flypend.lab.answers import answer, engine_of
 from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly, poke_state
-from flypend.lab.map import region
+from flypend.lab.flying import fly, poke_state, region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Slot, read
 from flypend.lab.setting import Poke, setting_of
@@ -843,7 +842,7 @@ def test_it_listens_on_loopback_only(lab):
     status, headers = code(lab.url)
     assert status == 200
     assert "default-src 'none'" in headers["Content-Security-Policy"]
-    assert code(lab.url + "lab.js")[0] == 200
+    assert code(lab.url + "page.js")[0] == 200
     assert code(lab.url + "../pyproject.toml")[0] == 404
 
 

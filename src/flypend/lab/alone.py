@@ -65,7 +65,7 @@ def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str,
         tell(_kind(setting), number, len(settings))
         engines[_kind(setting)] = _engine(setting_of(setting))
     choices = {**_available(every, settings, engines), **draw_starts()}
-    return replay.document("lab", replay.LIVE_POLICY, {"title": title, "engines": engines, "offer": choices})
+    return replay.document(replay.LIVE_POLICY, {"title": title, "engines": engines, "offer": choices})
 
 
 def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[str, Any]:

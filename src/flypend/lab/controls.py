@@ -171,4 +171,4 @@ def _step(
 
 def page(own: OwnLaws | None = None) -> str:
     """Return the page as HTML, offering the custom laws `own`."""
-    return replay.document("lab", "", {"title": "flypend laboratory", "offer": offer(own)})
+    return replay.document("", {"title": "flypend laboratory", "offer": offer(own)})

@@ -15,8 +15,7 @@ from flypend.flight.live_engine import engine_facts
 from flypend.flight.verdict import verdict
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import MOST_STEPS, fly
-from flypend.lab.map import region
+from flypend.lab.flying import MOST_STEPS, fly, region
 from flypend.lab.own import NONE, OwnLaws
 from flypend.lab.setting import Setting, setting_of
 from flypend.lab.tuning import Tell, tune_loop

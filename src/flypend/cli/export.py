@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from flypend.cli.options import LAW_HELP, out_option, sensors_asked, sensors_option, vehicle_option
+from flypend.cli.options import LAW_HELP, option, options_of, out_option, sensors_asked, sensors_option, vehicle_option
 from flypend.cli.terminal import bold, console, say
 from flypend.errors import InputError
 
@@ -42,12 +43,10 @@ def export_c(
     from flypend.compile.c99 import PRECISIONS
     from flypend.export import export_c as write
     from flypend.export import export_nmpc
-    from flypend.files.staging import check_writable
     from flypend.laws import inverted
     from flypend.planning.planner import plan
     from flypend.plants.sensors import sensors_called
 
-    check_writable(out)
     if light:
         errors.one_of("--law", law, ("inverted",))
     chosen = inverted(form="light") if light else inverted() if law == "nmpc" else _symbolic(law)
@@ -66,39 +65,38 @@ def export_c(
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
+@dataclass(frozen=True)
+class App:
+    """Options of an app, as `export_app` takes them."""
+
+    height: float | None = option(
+        "--height", type=float, help="Height, m, below which the law stays off. Default: what a swing-up needs."
+    )
+    airframe: str | None = option(
+        "--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length."
+    )
+    rate: float | None = option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
+    planned: bool = option(
+        "--plan", is_flag=True, help="Swing the hanging rod up along a plan; the law flies the rest."
+    )
+
+
 @click.command("export-app")
 @click.argument("target")
 @click.argument("vehicle")
 @out_option("app")
 @click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
-@click.option("--height", type=float, help="Height, m, below which the law stays off. Default: what a swing-up needs.")
-@click.option("--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length.")
-@click.option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
+@options_of(App, "own")
 @sensors_option
-@click.option("--plan", "planned", is_flag=True, help="Swing the hanging rod up along a plan; the law flies the rest.")
-def export_app(
-    target: str,
-    vehicle: str,
-    out: Path,
-    law: str,
-    height: float | None,
-    airframe: str | None,
-    rate: float | None,
-    sensors: str,
-    planned: bool,
-) -> None:
+def export_app(target: str, vehicle: str, out: Path, law: str, own: App, sensors: str) -> None:
     """Write an app for the firmware of TARGET, crazyflie or px4, that flies VEHICLE; see docs/export."""
     from flypend import model
     from flypend.export import export_app as write
-    from flypend.files.staging import check_writable
     from flypend.plants.sensors import sensors_called
 
-    check_writable(out)
     read = sensors_called(sensors_asked(sensors), "--sensors")
     machine, chosen = model.vehicle(vehicle), _symbolic(law)
-    flown = write(
-        target, chosen, machine, out, airframe=airframe, rate=rate, height=height, sensors=read, planned=planned
-    )
+    flown = write(target, chosen, machine, out, sensors=read, **vars(own))
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")

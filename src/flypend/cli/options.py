@@ -11,10 +11,37 @@ from typing import Any, TypeVar
 import click
 
 from flypend.errors import InputError
+from flypend.files.staging import check_writable
+from flypend.files.whole import FIGURES, check_file
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 LAW_HELP = "a name that flypend laws lists, file.py:function, module:function, or a policy (.npz, .onnx)"
 
+
+class Output(click.Path):
+    """A file that is to be written, with one of these `endings`; without endings a folder, made if there is none."""
+
+    def __init__(self, *endings: str) -> None:
+        super().__init__(path_type=Path)
+        self.endings, self.name = endings, "file" if endings else "dir"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        """Return the path. Raises InputError unless it can be written, and no other option writes that file."""
+        assert param is not None
+        assert ctx is not None
+        path = Path(value)
+        if not self.endings:
+            check_writable(path)
+            return path
+        check_file(path, self.endings, name_of(param))
+        for other in ctx.command.params:
+            taken = ctx.params.get(str(other.name)) if isinstance(other.type, Output) else None
+            if taken is not None and taken.absolute() == path.absolute():
+                raise InputError(name_of(param), f"another file than {name_of(other)}", str(path))
+        return path
+
+
+FIGURE = Output(*FIGURES)
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
@@ -29,10 +56,9 @@ style_option = click.option(
 )
 
 
-def out_option(default: str, describe: str = "Output folder.") -> Callable[[_Command], _Command]:
-    """Return the option --out with this default: a folder, or a file if the default has an ending."""
-    kind = "FILE" if Path(default).suffix else "DIR"
-    return click.option("--out", "-o", type=path, default=default, metavar=kind, help=describe)
+def out_option(default: str, describe: str = "Output folder.", *endings: str) -> Callable[[_Command], _Command]:
+    """Return the option --out with this default: a file with one of the `endings`, or without them a folder."""
+    return click.option("--out", "-o", type=Output(*endings), default=default, help=describe)
 
 
 def option(name: str, **settings: Any) -> Any:
@@ -63,8 +89,12 @@ def refuse_idle(*names: str, why: str) -> None:
     for parameter in context.command.params:
         given = context.get_parameter_source(str(parameter.name)) is click.core.ParameterSource.COMMANDLINE
         if parameter.name in names and given:
-            option = max((*parameter.opts, *parameter.secondary_opts), key=len)
-            raise InputError(option, f"nothing {why}", repr(context.params[parameter.name]))
+            raise InputError(name_of(parameter), f"nothing {why}", repr(context.params[parameter.name]))
+
+
+def name_of(parameter: click.Parameter) -> str:
+    """Return what messages call a `parameter`: the longest of its names."""
+    return max((*parameter.opts, *parameter.secondary_opts), key=len)
 
 
 def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:

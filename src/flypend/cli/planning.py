@@ -6,11 +6,11 @@ import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from flypend.cli.options import option, options_of, out_option, path, refuse_idle, vehicle_option
+from flypend.cli.options import FIGURE, Output, option, options_of, out_option, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ class Kept:
             return None
         if self.end.endswith(".toml"):
             refuse_idle("target", why=f"beside --end {self.end}, which says where")
-            return _from(self.end, "").start
+            return _from(self.end, "")[1]
         up = errors.one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
         return State(x=errors.array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
 
@@ -121,29 +121,24 @@ class Outputs:
     """What is made of a plan beside its file."""
 
     fly: str | None = option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
-    in_c: Path | None = option(
-        "--c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C."
-    )
-    csv: Path | None = option("--csv", type=path, metavar="FILE", help="Also write the plan as a table (.csv).")
-    figure: Path | None = option(
-        "--figure", type=path, metavar="FILE", help="Also draw the plan; with --fly, beside its flight."
-    )
-    front: Path | None = option("--front", type=path, metavar="FILE", help="Also draw excursion against allowed time.")
+    in_c: Path | None = option("--c", type=Output(), help="Also write the plan with its gains as a table in C.")
+    csv: Path | None = option("--csv", type=Output(".csv"), help="Also write the plan as a table (.csv).")
+    figure: Path | None = option("--figure", type=FIGURE, help="Also draw the plan; with --fly, beside its flight.")
+    front: Path | None = option("--front", type=FIGURE, help="Also draw excursion against allowed time.")
     sphere: Path | None = option(
         "--map",
-        type=path,
-        metavar="FILE",
+        type=FIGURE,
         help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
     )
     html: Path | None = option(
-        "--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost."
+        "--html", type=Output(".html"), help="Also write the replay; with --fly, the plan is the ghost."
     )
 
 
 @click.command()
 @click.argument("what", required=False)
 @vehicle_option
-@out_option("plan.nc", "Output file (.nc): the plan.")
+@out_option("plan.nc", "Output file (.nc): the plan.", ".nc")
 @click.option("--objective", help="What to minimise: excursion (default), effort, time, or cost (--cost alone).")
 @click.option("--duration", type=float, help="Time until hover, s; default as long as it takes.")
 @click.option("--target", type=float, nargs=3, metavar="X Y Z", help="Where the pivot hovers; default the origin.")
@@ -164,16 +159,17 @@ def plan(
     The run file also gives the vehicle and, if its law is "plan", objective, target and constraints, which options
     override. Any other law, and the duration, are ignored. Figures are .png, .pdf or .svg.
     """
-    from flypend.files.whole import FIGURES
+    from flypend import errors
     from flypend.flight.metrics import metrics
     from flypend.flight.simulate import simulate
     from flypend.planning.planner import plan as planned
     from flypend.planning.tracking import track
+    from flypend.plants import plant
 
-    figures = {"--figure": also.figure, "--front": also.front, "--map": also.sphere}
-    pages = {"--out": (out, (".nc",)), "--html": (also.html, (".html",)), "--csv": (also.csv, (".csv",))}
-    _check_files(pages | {option: (file, FIGURES) for option, file in figures.items()})
-    _check_options(what, also.fly, also.in_c)
+    if what is not None:
+        refuse_idle("vehicle", why=f"beside {what}, which names its own")
+    if also.fly is not None:
+        plant(errors.one_of("--fly", also.fly, ("rotors", "mujoco")))
     machine, start, asked = _from(what, vehicle)
     given = {"objective": "excursion", "target": (0.0, 0.0, 0.0), **asked}
     given |= {name: value for name, value in {"objective": objective, "target": target}.items() if value is not None}
@@ -202,7 +198,7 @@ def plan(
     if also.html is not None:
         shown.to_html(also.html, ghost=[] if flown is None else [found.trajectory], windows=found.windows)
         console.print(f"The replay is {bold(also.html)}.")
-    if any(figures.values()):
+    if also.figure or also.front or also.sphere:
         _draw(found, flown, start, kept, also)
 
 
@@ -235,51 +231,18 @@ def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints
             save(strays_figure(strays(found.vehicle, (inverted(), nmpc()), CELLS, tell=tell)), also.sphere)
 
 
-def _check_options(what: str | None, fly: str | None, in_c: Path | None) -> None:
-    """Raise InputError for a vehicle beside a run file, another plant, or a folder that cannot be written."""
-    from flypend import errors
-    from flypend.files.staging import check_writable
-    from flypend.plants import plant
+def _from(what: str | None, name: str) -> tuple[Vehicle, State, dict[str, Any]]:
+    """Return vehicle and start (e₃ up) of the run file `what`, and the arguments of `plan` if its law is "plan".
 
-    if what is not None:
-        refuse_idle("vehicle", why=f"beside {what}, which names its own")
-    if fly is not None:
-        plant(errors.one_of("--fly", fly, ("rotors", "mujoco")))
-    if in_c is not None:
-        check_writable(in_c)
-
-
-def _check_files(files: dict[str, tuple[Path | None, tuple[str, ...]]]) -> None:
-    """Raise InputError unless all `files`, option → (file, endings), can be written, and none is named twice."""
-    from flypend.errors import InputError
-    from flypend.files.whole import check_file
-
-    taken: dict[Path, str] = {}
-    for named, (file, endings) in files.items():
-        if file is None:
-            continue
-        check_file(file, endings)
-        if (other := taken.setdefault(file.absolute(), named)) != named:
-            raise InputError(named, f"another file than {other}", str(file))
-
-
-class Asked(NamedTuple):
-    """What a run file says of a plan; the start with e₃ up, and the arguments of `plan` if its law is "plan"."""
-
-    vehicle: Vehicle
-    start: State
-    arguments: dict[str, Any]
-
-
-def _from(what: str | None, name: str) -> Asked:
-    """Return what the run file `what` asks for; without one, the vehicle `name` with its rod hanging."""
+    Without a run file, the vehicle is `name`, with its rod hanging.
+    """
     from flypend import model
     from flypend.settings.laws import plan_from
     from flypend.settings.runfile import run_file
 
     if what is None:
-        return Asked(model.vehicle(name), model.State(y=(0.0, 0.0, -1.0)), {})
+        return model.vehicle(name), model.State(y=(0.0, 0.0, -1.0)), {}
     flight, settings = run_file(what)
     law = settings["law"]
     arguments = plan_from(law) if law.get("name") == "plan" else {}
-    return Asked(flight.vehicle, flight.starts.in_frame(flight.law.e3), arguments)
+    return flight.vehicle, flight.starts.in_frame(flight.law.e3), arguments

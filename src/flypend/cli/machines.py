@@ -1,15 +1,27 @@
-"""The commands that find a machine's numbers: from its parts, and in a flight log."""
+"""The commands that find a machine's numbers, from its parts and in a flight log, and say what it can do."""
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from flypend.cli.options import option, options_of, out_option, refuse_idle, vehicle_option
-from flypend.cli.terminal import bold, console, counter
+from flypend.cli.options import (
+    BANDS_HELP,
+    FLOOR_HELP,
+    laws_option,
+    option,
+    options_of,
+    out_option,
+    path,
+    plant_asked,
+    refuse_idle,
+    vehicle_option,
+)
+from flypend.cli.terminal import bold, console, counter, tell_how
 
 if TYPE_CHECKING:
     from flypend.identification import Command
@@ -36,18 +48,17 @@ def vehicle(context: click.Context) -> None:
 @click.option("--inertia", nargs=3, type=float, help="Principal moments, if known, kg m².")
 @click.option("--rotors", default=4, help="At equal angles.")
 @click.option("--mount", default="gimbal", help="gimbal, hub or cup.")
-@out_option("mine.toml", "The vehicle, with bands and sources.")
+@out_option("mine.toml", "The vehicle, with bands and sources.", ".toml")
 @click.option("--force", is_flag=True, help="Overwrite a file that differs.")
 def new(out: Path, force: bool, **measured: Any) -> None:
     """Write a vehicle file from weights, lengths and parts; guess the rest.
 
     Quantities are SI numbers or have a unit: 620g, 17cm, 820gf.
     """
-    from flypend.files.whole import check_file, check_same, whole_file
+    from flypend.files.whole import check_same, whole_file
     from flypend.model import Vehicle
     from flypend.model.estimate import Measured, guess
 
-    check_file(out, (".toml",))
     found = guess(Measured(**measured, name=out.stem))
     machine = Vehicle(**found.fields)
     if not force:
@@ -72,15 +83,11 @@ class Rehearsal:
 
 
 @click.command()
-@click.argument("log", type=click.Path(path_type=Path))
+@click.argument("log", type=path)
 @vehicle_option
-@out_option("identified.toml", "The machine found, with its bands.")
+@out_option("identified.toml", "The machine found, with its bands.", ".toml")
 @click.option(
-    "--marker",
-    nargs=3,
-    type=float,
-    default=(0.0, 0.0, 0.0),
-    help="Position of the tracked point relative to the pivot, body frame, m.",
+    "--marker", nargs=3, type=float, default=(0.0, 0.0, 0.0), help="Tracked point from the pivot, body frame, m."
 )
 @click.option("--command", default="newton", help="What u1, u2, … are: newton, or pwm, fractions from 0 to 1.")
 @click.option("--mass-error", default=0.005, help="Relative error within which the vehicle's mass is known.")
@@ -108,12 +115,10 @@ def identify(
     from flypend.identification.manoeuvre import rehearsal_of, write_log
 
     machine = model.vehicle(vehicle)
-    check_file(out, (".toml",))
     with counter() as tell:
         if rehearsal.asked:
-            if (marker, command) != ((0.0, 0.0, 0.0), "newton"):
-                raise InputError("--rehearse", "the rehearsal's own log: no --marker, no --command", "them")
-            check_file(log, (".csv",))
+            refuse_idle("marker", "command", why="beside --rehearse, whose log is its own")
+            check_file(log, (".csv",), "LOG")
             if log.exists():  # it may be a real flight
                 raise InputError(str(log), "no file yet, as --rehearse writes it", "one")
             guess, flown = rehearsal_of(machine, duration=rehearsal.duration, seed=rehearsal.seed)
@@ -128,3 +133,86 @@ def identify(
     if rehearsal.asked:
         console.print(f"The search began from {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")
     console.print(f"The machine is in {bold(out)}.")
+
+
+@dataclass(frozen=True)
+class Flights:
+    """What is flown."""
+
+    plant: str = option("--plant", default="rotors", help="rotors, mujoco, hehn2011 or laboratory.")
+    sensors: str = option(
+        "--sensors",
+        default="perfect",
+        help="Sensor suite, or a TOML file of one; also flies all errors of a laboratory at once.",
+    )
+    floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
+    runs: int | None = option(
+        "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."
+    )
+    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
+    advise: bool = option(
+        "--advise",
+        is_flag=True,
+        help="Name the best law, by default of inverted and learned; if none will do, what to change.",
+    )
+    bands: bool = option("--bands", is_flag=True, help=f"Also f{BANDS_HELP[1:]}")
+
+
+@click.command()
+@click.argument("vehicle")
+@laws_option
+@out_option("check-out")
+@options_of(Flights, "own")
+@click.option(
+    "--margins/--no-margins", default=None, help="Search for margins; on by default for perfect sensors and fast laws."
+)
+@click.option("--trial", is_flag=True, help="Also fly a minute with 15 knocks, and sweep every number by ±25 %.")
+@click.option("--figures/--no-figures", default=True, help="Draw the figure.")
+def check(
+    vehicle: str, law: tuple[str, ...], out: Path, own: Flights, margins: bool | None, trial: bool, figures: bool
+) -> None:
+    """Report what VEHICLE, a name or a TOML file, can do: hover, lean, swing-up, level and random starts, margins.
+
+    Each task gets a grade: flights succeed from all, most (at least 90 %), some or none of its starts. If a law cannot
+    even hover, the exit code is 1 and the reason is printed. The default law is inverted.
+    """
+    from flypend import errors, model
+    from flypend.plants import PRESETS
+    from flypend.report.check import check_tables, joint_lines, verdicts, write_check
+    from flypend.settings.runfile import plant_of
+    from flypend.studies import law_named
+    from flypend.studies.advice import advise
+    from flypend.studies.check import check as examine
+    from flypend.studies.joint import joint
+    from flypend.studies.trial import trial as try_
+
+    machine = model.vehicle(vehicle)
+    errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
+    asked = plant_asked(own.plant, own.sensors, own.floor)
+    measured = isinstance(asked, dict) and "sensors" in asked
+    if measured and margins is None:
+        margins = False  # what fails first, and at which size, is told of all errors together
+    world, seed = plant_of(asked), own.seed
+    laws = {name: law_named(name) for name in law or ("inverted", *(["learned"] if own.advise else []))}
+    for each in laws.values():
+        tell_how(each)
+    checks, trials, joints = {}, {}, {}
+    with counter() as tell:
+        for name, each in laws.items():
+            checks[name] = examine(
+                machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, bands=own.bands, progress=tell
+            )
+            if trial and checks[name].tasks:
+                trials[name] = try_(machine, each, plant=world, seed=seed, progress=tell)
+            if measured and checks[name].tasks:
+                joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
+        advice = advise(machine, checks, plant=world, seed=seed, progress=tell) if own.advise else None
+    settings = {"vehicle": vehicle, "laws": list(laws), "plant": asked, "seed": seed}
+    write_check(checks, trials, settings, out, figures=figures, joints=joints, advice=advice)
+    for table in check_tables(checks, trials):
+        console.print(table)
+    for line in (*verdicts(checks), *joint_lines(joints), *(advice.lines() if advice else ())):
+        console.print(line, markup=False)
+    console.print(f"The report{' and its figure are' if figures else ' is'} in {bold(out)}.")
+    if not all(each.ok for each in checks.values()):
+        sys.exit(1)

@@ -1,16 +1,21 @@
-"""The commands that list what there is: laws with their gains, and vehicles."""
+"""The commands about what an installation holds: laws, vehicles, examples, and compiled machine code."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import click
 
-from flypend.cli.options import path, vehicle_option
+from flypend.cli.options import FIGURE, out_option, path, vehicle_option
 from flypend.cli.terminal import bold, console
+from flypend.files.staging import write_texts
+from flypend.files.whole import check_same, save_figure
 
 WIDTH = 100  # of a table of gains, in which the meanings wrap
+SUFFIXES = (".toml", ".py")  # of examples; others are Python's bytecode
 
 
 @click.command()
@@ -34,7 +39,7 @@ def laws(name: str | None, vehicle: str) -> None:
 
 @click.command()
 @click.argument("vehicle", required=False)
-@click.option("-o", "--out", type=path, metavar="FILE", help="Draw VEHICLE into this file, .png, .pdf or .svg.")
+@click.option("-o", "--out", type=FIGURE, help="Draw VEHICLE into this file, .png, .pdf or .svg.")
 def vehicles(vehicle: str | None, out: Path | None) -> None:
     """List the vehicles, or print the TOML of VEHICLE (a name or a file), or with -o draw it on its mounts."""
     from flypend import model
@@ -50,7 +55,6 @@ def vehicles(vehicle: str | None, out: Path | None) -> None:
     if out is None:
         click.echo(text, nl=False)
         return
-    from flypend.files.whole import save_figure
     from flypend.pictures.machine import machine_figure
 
     save_figure(machine_figure(model.vehicle(vehicle)), out)
@@ -98,3 +102,68 @@ def _table(*names: str) -> Any:
         number = 0 < place < len(names) - (names[-1] == "meaning") - (names[-2] == "unit")
         found.add_column(name, justify="right" if number else "left", overflow="fold")
     return found
+
+
+@click.command()
+@out_option("examples")
+@click.option("--force", is_flag=True, help="Overwrite files that differ from the examples.")
+def examples(out: Path, force: bool) -> None:
+    """Write the examples: a run file, a study, a custom law. Files that you changed are kept, unless --force."""
+    texts = {str(name): source.read_text(encoding="utf-8") for name, source in read_shipped().items()}
+    if not force:
+        for name, text in texts.items():
+            check_same(out / name, text.encode(), "the example")
+    write_texts(out, texts)
+    for name in texts:
+        console.print(str(out / name), markup=False, soft_wrap=True)
+    console.print(f"Try: flypend run {bold(out / 'swing-up.toml')}", soft_wrap=True)
+
+
+def read_shipped() -> dict[PurePosixPath, Traversable]:
+    """Return the examples shipped with the package, by path relative to the output folder."""
+
+    def walk(folder: Traversable, name: PurePosixPath) -> dict[PurePosixPath, Traversable]:
+        found: dict[PurePosixPath, Traversable] = {}
+        for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+            if entry.is_dir():
+                found |= walk(entry, name / entry.name)
+            elif entry.name.endswith(SUFFIXES):
+                found[name / entry.name] = entry
+        return found
+
+    return walk(resources.files("flypend") / "examples", PurePosixPath())
+
+
+@click.group(invoke_without_command=True)
+@click.pass_context
+def cache(context: click.Context) -> None:
+    """Show where compiled machine code is kept and how much there is; clear or move it."""
+    if context.invoked_subcommand is None:
+        from flypend.compile.cache import summarise
+
+        found = summarise()
+        console.print(f"Machine code is in {bold(found.place.folder)} ({found.place.named_by}).", soft_wrap=True)
+        console.print(f"{found.entries} entries, {_megabytes(found.size)} of at most {_megabytes(found.place.limit)}.")
+
+
+@cache.command()
+def clear() -> None:
+    """Remove all machine code. Commands compile what they need again."""
+    from flypend.compile.cache import summarise
+
+    gone = summarise(clear=True)
+    console.print(f"Removed {gone.entries} entries, {_megabytes(gone.size)}.")
+
+
+@cache.command()
+@click.argument("folder", metavar="DIR", type=path)
+def move(folder: Path) -> None:
+    """Move machine code to DIR, and keep it there from now on. The variable FLYPEND_CACHE, if set, overrides DIR."""
+    from flypend.compile.cache import move as move_to
+
+    move_to(folder)
+    console.print(f"Machine code is in {bold(folder.absolute())}.", soft_wrap=True)
+
+
+def _megabytes(size: float) -> str:
+    return f"{size / 1e6:.3g} MB"

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 @vehicle_option
 @out_option("c-out")
 @click.option("--precision", default="double", help="double or float.")
-@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@click.option("--rate", default=500.0, help="Control rate, Hz.")
 @sensors_option
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
 @click.option(
@@ -69,16 +69,12 @@ def export_c(
 class App:
     """Options of an app, as `export_app` takes them."""
 
-    height: float | None = option(
-        "--height", type=float, help="Height, m, below which the law stays off. Default: what a swing-up needs."
-    )
+    height: float | None = option("Height, m, below which the law stays off. Default: what a swing-up needs.")
     airframe: str | None = option(
-        "--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length."
+        "Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length."
     )
-    rate: float | None = option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
-    planned: bool = option(
-        "--plan", is_flag=True, help="Swing the hanging rod up along a plan; the law flies the rest."
-    )
+    rate: float | None = option("Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
+    planned: bool = option("Swing the hanging rod up along a plan; the law flies the rest.", "--plan")
 
 
 @click.command("export-app")

@@ -19,16 +19,12 @@ from flypend.errors import InputError, require
 class Shown:
     """What is drawn of a flight."""
 
-    quick: bool = option("--quick", is_flag=True, help="Skip the movies.")
+    quick: bool = option("Skip the movies.")
     figures: bool = option(
-        "--figures/--no-figures", default=True, help="Draw the figures (--no-figures also skips the movies)."
+        "Draw the figures (--no-figures also skips the movies).", "--figures/--no-figures", default=True
     )
-    html: Path | None = option(
-        "--html", type=Output(".html"), help="Also write the replay, a page that opens in any browser."
-    )
-    live: bool = option(
-        "--live", is_flag=True, help="Make the page of --html interactive: poke, pull, start anywhere, move gains."
-    )
+    html: Path | None = option("Also write the replay, a page that opens in any browser.", type=Output(".html"))
+    live: bool = option("Make the page of --html interactive: poke, pull, start anywhere, move gains.")
 
 
 @click.command()
@@ -36,7 +32,11 @@ class Shown:
 @out_option("run-out")
 @click.option("--law", help=f"Replace the law: {LAW_HELP}.")
 @click.option(
-    "--set", "override", metavar="KEY=VALUE", multiple=True, help="Override a setting, such as law.gains.k_d=2."
+    "--set",
+    "override",
+    metavar="KEY=VALUE",
+    multiple=True,
+    help="Override a setting, such as law.gains.k_d=2 or law.name=printed.",
 )
 @click.option("--controller", help="python, or the law as compiled C: c (double) or c-float.")
 @options_of(Shown, "shown")
@@ -123,7 +123,7 @@ def _changes(override: Sequence[str], law: str | None, controller: str | None) -
     "--beside", is_flag=True, help="One panel per run, instead of one panel with ghosts; the page can switch."
 )
 @click.option("--title", help="Title; by default the laws and vehicles.")
-@click.option("--speed", type=float, default=1.0, help="Flight time over playback time; 0.25 is slow motion.")
+@click.option("--speed", default=1.0, help="Flight time over playback time; 0.25 is slow motion.")
 def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, speed: float) -> None:
     """Write saved runs as one self-contained page for any browser, offline: play, scrub, rotate, compare.
 
@@ -147,8 +147,8 @@ def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, s
 @click.argument("run", type=path)
 @out_option("flight.mp4", "Output movie (.mp4 or .gif).", ".mp4", ".gif")
 @click.option("--camera", default="side", help="side, or axis (from above, along gravity).")
-@click.option("--speed", type=float, default=0.25, help="Flight time over playback time; 0.25 is slow motion.")
-@click.option("--fps", type=float, default=30.0, help="Frames per second of playback.")
+@click.option("--speed", default=0.25, help="Flight time over playback time; 0.25 is slow motion.")
+@click.option("--fps", default=30.0, help="Frames per second of playback.")
 @click.option(
     "--size", type=(int, int), default=(640, 640), metavar="WIDTH HEIGHT", help="Size in pixels; even numbers."
 )

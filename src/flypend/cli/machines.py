@@ -75,11 +75,9 @@ def new(out: Path, force: bool, **measured: Any) -> None:
 class Rehearsal:
     """A flight in simulation."""
 
-    asked: bool = option(
-        "--rehearse", is_flag=True, help="First fly the manoeuvre with --vehicle in simulation, and write LOG."
-    )
-    duration: float = option("--duration", default=60.0, help="Length of the rehearsal, s.")
-    seed: int = option("--seed", type=click.IntRange(min=0), default=0, help="Seed of the rehearsal.")
+    asked: bool = option("First fly the manoeuvre with --vehicle in simulation, and write LOG.", "--rehearse")
+    duration: float = option("Length of the rehearsal, s.", default=60.0)
+    seed: int = option("Seed of the rehearsal.", type=click.IntRange(min=0), default=0)
 
 
 @click.command()
@@ -87,7 +85,11 @@ class Rehearsal:
 @vehicle_option
 @out_option("identified.toml", "The machine found, with its bands.", ".toml")
 @click.option(
-    "--marker", nargs=3, type=float, default=(0.0, 0.0, 0.0), help="Tracked point from the pivot, body frame, m."
+    "--marker",
+    nargs=3,
+    type=float,
+    default=(0.0, 0.0, 0.0),
+    help="Position of the tracked point from the pivot, body frame, m.",
 )
 @click.option("--command", default="newton", help="What u1, u2, … are: newton, or pwm, fractions from 0 to 1.")
 @click.option("--mass-error", default=0.005, help="Relative error within which the vehicle's mass is known.")
@@ -139,23 +141,15 @@ def identify(
 class Flights:
     """What is flown."""
 
-    plant: str = option("--plant", default="rotors", help="rotors, mujoco, hehn2011 or laboratory.")
+    plant: str = option("rotors, mujoco, hehn2011 or laboratory.", default="rotors")
     sensors: str = option(
-        "--sensors",
-        default="perfect",
-        help="Sensor suite, or a TOML file of one; also flies all errors of a laboratory at once.",
+        "Sensor suite, or a TOML file of one; also flies all errors of a laboratory at once.", default="perfect"
     )
-    floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
-    runs: int | None = option(
-        "--runs", type=click.IntRange(min=1), help="Random starts; default 1000, or 24 if the law is slow."
-    )
-    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
-    advise: bool = option(
-        "--advise",
-        is_flag=True,
-        help="Name the best law, by default of inverted and learned; if none will do, what to change.",
-    )
-    bands: bool = option("--bands", is_flag=True, help=f"Also f{BANDS_HELP[1:]}")
+    floor: float | None = option(FLOOR_HELP, metavar="M")
+    runs: int | None = option("Random starts; default 1000, or 24 if the law is slow.", type=click.IntRange(min=1))
+    seed: int = option("Seed of the random starts.", type=click.IntRange(min=0), default=1)
+    advise: bool = option("Name the best law, by default of inverted and learned; if none will do, what to change.")
+    bands: bool = option(f"Also f{BANDS_HELP[1:]}")
 
 
 @click.command()

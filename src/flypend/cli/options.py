@@ -61,9 +61,15 @@ def out_option(default: str, describe: str = "Output folder.", *endings: str) ->
     return click.option("--out", "-o", type=Output(*endings), default=default, help=describe)
 
 
-def option(name: str, **settings: Any) -> Any:
-    """Return a field of a dataclass that is the option `name` of a command, with the `settings` of `click.option`."""
-    return field(metadata={"name": name, "settings": settings})
+def option(describe: str, name: str = "", **settings: Any) -> Any:
+    """Return a field of a dataclass that is an option of a command, with the `settings` of `click.option`.
+
+    It is called as the field unless it has a `name` of its own. A bool is a flag.
+    """
+    return field(metadata={"name": name, "settings": {"help": describe, **settings}})
+
+
+KINDS: dict[Any, dict[str, Any]] = {"bool": {"is_flag": True}, "float | None": {"type": float}}  # by annotation
 
 
 def options_of(record: type, name: str) -> Callable[[_Command], Any]:
@@ -77,7 +83,8 @@ def options_of(record: type, name: str) -> Callable[[_Command], Any]:
             return function(**given, **{name: record(**own)})
 
         for each in reversed(options):
-            click.option(each.metadata["name"], each.name, **each.metadata["settings"])(called)
+            called_as = each.metadata["name"] or f"--{each.name}"
+            click.option(called_as, each.name, **KINDS.get(each.type, {}), **each.metadata["settings"])(called)
         return called
 
     return decorate

@@ -38,17 +38,11 @@ def paper(out: Path, quick: bool, style: str) -> None:
 class Basin:
     """What --basin counts."""
 
-    asked: bool = option(
-        "--basin", is_flag=True, help="Count the random starts that end in the certified set, within limits."
-    )
-    lag: bool = option("--lag", is_flag=True, help="With --basin: rotors lag as well.")
-    hanging: bool = option(
-        "--hanging", is_flag=True, help="With --basin: the rod hangs at the start, within 10° of straight down."
-    )
-    mount: str | None = option(
-        "--mount", help="With --basin: what carries the rod, gimbal or hub; default the vehicle's own."
-    )
-    vehicle: str = option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
+    asked: bool = option("Count the random starts that end in the certified set, within limits.", "--basin")
+    lag: bool = option("With --basin: rotors lag as well.")
+    hanging: bool = option("With --basin: the rod hangs at the start, within 10° of straight down.")
+    mount: str | None = option("With --basin: what carries the rod, gimbal or hub; default the vehicle's own.")
+    vehicle: str = option("Vehicle name or TOML file.", default="hehn2011")
 
     def measure(self, out: Path, runs: int, seed: int) -> None:
         """Measure the basin of the certified set, save it in `out` and print it."""

@@ -32,51 +32,35 @@ class Kept:
     """How a plan ends and what it keeps: `Constraints`, with a cube about the target for a box, angles in degrees."""
 
     end: str = option(
-        "--end",
-        default="inverted",
-        help="How it ends: in hover with the rod inverted or hanging, or at the start of a run file.",
+        "How it ends: in hover with the rod inverted or hanging, or at the start of a run file.", default="inverted"
     )
-    floor: float | None = option("--floor", type=float, metavar="M", help="Minimum height of pivot and rod.")
-    ceiling: float | None = option("--ceiling", type=float, metavar="M", help="Maximum height of pivot and rod.")
-    cube: float | None = option(
-        "--cube", type=float, metavar="M", help="Side of a cube about the target, in which pivot and rod stay."
-    )
-    speed: float | None = option("--speed", type=float, metavar="M/S", help="Maximum speed of the pivot.")
-    lean: float | None = option(
-        "--lean",
-        type=float,
-        metavar="DEG",
-        help="Maximum angle between rod and vertical; 90 keeps it above the horizon.",
-    )
+    floor: float | None = option("Minimum height of pivot and rod.", metavar="M")
+    ceiling: float | None = option("Maximum height of pivot and rod.", metavar="M")
+    cube: float | None = option("Side of a cube about the target, in which pivot and rod stay.", metavar="M")
+    speed: float | None = option("Maximum speed of the pivot.", metavar="M/S")
+    lean: float | None = option("Maximum angle between rod and vertical; 90 keeps it above the horizon.", metavar="DEG")
     window: tuple[tuple[float, ...], ...] = option(
-        "--window",
+        "Opening to fly through, in a wall normal to the x axis; repeatable.",
         type=float,
         nargs=5,
         multiple=True,
         metavar="X Y Z WIDTH HEIGHT",
-        help="Opening to fly through, in a wall normal to the x axis; repeatable.",
     )
     waypoints: tuple[tuple[float, ...], ...] = option(
+        "Point that the pivot passes; repeatable, in order.",
         "--waypoint",
         type=float,
         nargs=3,
         multiple=True,
         metavar="X Y Z",
-        help="Point that the pivot passes; repeatable, in order.",
     )
-    path: str | None = option(
-        "--path", metavar="FILE.py:FUNCTION", help="Path of the pivot in time, to fly in the --duration."
-    )
-    clearance: float | None = option(
-        "--clearance", type=float, metavar="M", help="Distance that rod and machine keep from mount and frames."
-    )
+    path: str | None = option("Path of the pivot in time, to fly in the --duration.", metavar="FILE.py:FUNCTION")
+    clearance: float | None = option("Distance that rod and machine keep from mount and frames.", metavar="M")
     keep: str | None = option(
-        "--keep", metavar="EXPR", help='What must always hold, such as "norm(x) < 1, y[2] > 0"; or file.py:function.'
+        'What must always hold, such as "norm(x) < 1, y[2] > 0"; or file.py:function.', metavar="EXPR"
     )
     cost: str | None = option(
-        "--cost",
-        metavar="EXPR",
-        help='Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.',
+        'Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.', metavar="EXPR"
     )
 
     def state(self, target: ArrayLike) -> State | None:
@@ -120,19 +104,17 @@ class Kept:
 class Outputs:
     """What is made of a plan beside its file."""
 
-    fly: str | None = option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
-    in_c: Path | None = option("--c", type=Output(), help="Also write the plan with its gains as a table in C.")
-    csv: Path | None = option("--csv", type=Output(".csv"), help="Also write the plan as a table (.csv).")
-    figure: Path | None = option("--figure", type=FIGURE, help="Also draw the plan; with --fly, beside its flight.")
-    front: Path | None = option("--front", type=FIGURE, help="Also draw excursion against allowed time.")
+    fly: str | None = option("Also fly the plan with feedback: rotors or mujoco.", metavar="PLANT")
+    in_c: Path | None = option("Also write the plan with its gains as a table in C.", "--c", type=Output())
+    csv: Path | None = option("Also write the plan as a table (.csv).", type=Output(".csv"))
+    figure: Path | None = option("Also draw the plan; with --fly, beside its flight.", type=FIGURE)
+    front: Path | None = option("Also draw excursion against allowed time.", type=FIGURE)
     sphere: Path | None = option(
+        "Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
         "--map",
         type=FIGURE,
-        help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
     )
-    html: Path | None = option(
-        "--html", type=Output(".html"), help="Also write the replay; with --fly, the plan is the ghost."
-    )
+    html: Path | None = option("Also write the replay; with --fly, the plan is the ghost.", type=Output(".html"))
 
 
 @click.command()

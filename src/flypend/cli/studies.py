@@ -49,13 +49,11 @@ force_option = click.option("--force", is_flag=True, help="Discard the store of 
 class Starts:
     """Which vehicle flies from where, and for how long."""
 
-    starts: str = option(
-        "--starts", default="random", help="random, or paper: the five starts of the paper, in the e₃-up frame."
-    )
-    runs: int = option("--runs", type=click.IntRange(min=1), default=100, help="Number of random starts.")
-    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="Seed of the random starts.")
-    vehicle: str = option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
-    duration: float = option("--duration", type=float, default=10.0, help="Seconds per flight.")
+    starts: str = option("random, or paper: the five starts of the paper, in the e₃-up frame.", default="random")
+    runs: int = option("Number of random starts.", type=click.IntRange(min=1), default=100)
+    seed: int = option("Seed of the random starts.", type=click.IntRange(min=0), default=1)
+    vehicle: str = option("Vehicle name or TOML file.", default="hehn2011")
+    duration: float = option("Seconds per flight.", default=10.0)
 
     def of(self, names: Sequence[str]) -> tuple[list[Any], Any, Any, dict[str, Any]]:
         """Return the laws called `names`, starts and vehicle, and the settings for a report. Raises InputError."""
@@ -167,7 +165,12 @@ def ladder(
 @click.command()
 @click.argument("study", type=path)
 @click.option(
-    "--out", "-o", type=path, required=True, metavar="STORE", help="Zarr store for the runs; its name ends in .zarr."
+    "--out",
+    "-o",
+    type=path,
+    required=True,
+    metavar="STORE",
+    help="Zarr store for the runs, a folder; its name ends in .zarr.",
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Dask scheduler to use, such as tcp://host:8786.")
 @workers_option
@@ -191,14 +194,14 @@ def sweep(
 class Standard:
     """The study of a law from random starts."""
 
-    law: str | None = option("--law", help=f"Fly this law from random starts instead of a study: {LAW_HELP}.")
-    vehicle: str | None = option("--vehicle", help="With --law: vehicle name or TOML file.")
-    plant: str = option("--plant", default="rotors", help="With --law: ideal, rotors, mujoco, hehn2011 or laboratory.")
-    sensors: str = option("--sensors", default="perfect", help=SENSORS_HELP)
-    floor: float | None = option("--floor", type=float, metavar="M", help=FLOOR_HELP)
-    runs: int = option("--runs", type=click.IntRange(min=1), default=100_000, help="With --law: number of runs.")
-    seed: int = option("--seed", type=click.IntRange(min=0), default=1, help="With --law: seed of the starts.")
-    duration: float | None = option("--duration", type=float, help="With --law: seconds per run.")
+    law: str | None = option(f"Fly this law from random starts instead of a study: {LAW_HELP}.")
+    vehicle: str | None = option("With --law: vehicle name or TOML file.")
+    plant: str = option("With --law: ideal, rotors, mujoco, hehn2011 or laboratory.", default="rotors")
+    sensors: str = option(SENSORS_HELP, default="perfect")
+    floor: float | None = option(FLOOR_HELP, metavar="M")
+    runs: int = option("With --law: number of runs.", type=click.IntRange(min=1), default=100_000)
+    seed: int = option("With --law: seed of the starts.", type=click.IntRange(min=0), default=1)
+    duration: float | None = option("With --law: seconds per run.")
 
 
 @click.command("map")

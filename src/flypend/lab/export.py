@@ -8,8 +8,8 @@ from typing import Any
 
 from flypend.files.toml import toml_text
 from flypend.lab.setting import Setting
-from flypend.model import State, Vehicle, vehicle
-from flypend.model.state import SHAPES
+from flypend.model import Vehicle, vehicle
+from flypend.pages.starts import plain
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 from flypend.plants.defects import NAMES, names_drawn
 from flypend.plants.sensors import SUITES, Sensors
@@ -27,7 +27,7 @@ def toml(setting: Setting) -> str:
         "plant": _plant(flight.plant),
         "vehicle": {"base": base, **changed} if changed else base,
         "law": _law(setting),
-        "start": _start(flight.starts),
+        "start": plain(flight.starts),
     }
     return (POKED if setting.pokes else "") + toml_text(written)
 
@@ -37,7 +37,7 @@ def python(setting: Setting) -> str:
     flight = setting.flight
     base, changed = _vehicle(flight.vehicle)
     machine = f"fp.vehicle({base!r})" + (f".replace({_arguments(changed)})" if changed else "")
-    start = ",\n".join(f"    {name}={value!r}" for name, value in _start(flight.starts).items())
+    start = ",\n".join(f"    {name}={value!r}" for name, value in plain(flight.starts).items())
     return (
         f"import flypend as fp\n"
         f"{OWN if setting.where else ''}\n"
@@ -76,7 +76,7 @@ def _plant(plant: AnyPlant) -> str | dict[str, Any]:
         value = getattr(plant, entry.name)
         if value != getattr(ROTORS, entry.name):
             if entry.name in ("noise", "wind"):
-                value = _record(value)
+                value = dict(vars(value))
             changed[entry.name] = _suite(value) if entry.name == "sensors" else value
     return {"base": "rotors", **changed} if changed else "rotors"
 
@@ -95,11 +95,6 @@ def _suite(sensors: Sensors) -> str | dict[str, Any]:
     return {"base": base, "adjustable": adjustable, **changed}
 
 
-def _record(record: Any) -> dict[str, Any]:
-    """The fields of a `Noise` or a `Wind`, tuples as lists."""
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(record).items()}
-
-
 def _plant_call(plant: AnyPlant) -> str:
     """The plant as a Python expression."""
     table = _plant(plant)
@@ -111,10 +106,6 @@ def _plant_call(plant: AnyPlant) -> str:
         if name != "base":
             parts.append(f"{name}={kind}({_arguments(value)})" if kind else f"{name}={value!r}")
     return f"fp.Plant({', '.join(parts)})"
-
-
-def _start(state: State) -> dict[str, Any]:
-    return {name: getattr(state, name).tolist() for name in SHAPES}
 
 
 def _arguments(values: Mapping[str, Any]) -> str:

@@ -944,6 +944,7 @@ def test_whom_a_server_that_is_open_to_others_trusts():
     assert laboratory.trusts("localhost:80")
     assert not laboratory.trusts("evil.example:80")
     assert not laboratory.trusts("")
+    assert not laboratory.trusts("[a")
     laboratory.close()
 
 

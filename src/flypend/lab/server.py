@@ -52,7 +52,10 @@ class Laboratory:
 
     def trusts(self, host: str) -> bool:
         """Whether the Host header `host` names this server, and not a foreign name that resolves to it."""
-        name = urlsplit(f"//{host}").hostname or ""
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:  # it is none, such as [a
+            return False
         asked, own = _address_in(name), _address_in(self.host)
         here = own is not None and own.is_loopback
         return name == self.host or (asked is not None and (asked.is_loopback or not here))

@@ -98,9 +98,9 @@ def _table(*names: str) -> Any:
     from rich.table import Table
 
     found = Table(box=SIMPLE, padding=(0, 1, 0, 0))
-    for place, name in enumerate(names):
-        number = 0 < place < len(names) - (names[-1] == "meaning") - (names[-2] == "unit")
-        found.add_column(name, justify="right" if number else "left", overflow="fold")
+    for name in names:
+        worded = name in ("vehicle", "gain", "unit", "meaning")
+        found.add_column(name, justify="left" if worded else "right", overflow="fold")
     return found
 
 

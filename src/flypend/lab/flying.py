@@ -25,7 +25,7 @@ from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
 from flypend.flight.simulate import record_run
 from flypend.flight.trajectory import Trajectory
-from flypend.lab.setting import Poke, Setting, in_frame
+from flypend.lab.setting import Poke, Setting
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tune_loop, values
 from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import SHAPES, SIZE, E3Direction, convert_packed, split
@@ -76,8 +76,7 @@ def _fly_parts(setting: Setting, machine: Tuned | Stepped, gains: Any) -> Iterat
         yield Samples(begin + part.t[keep], part.packed[keep], part.rotors[keep], outcome)
         if poke is None or outcome.status != "completed":
             return
-        end = State(**split(convert_packed(part.packed[-1], e3)))
-        state = poke_state(end, flight.vehicle, e3, poke)
+        state = poke_state(State(**split(part.packed[-1])), flight.vehicle, "up", poke).in_frame(e3)
         begin = begin + float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
         rotors = part.rotors[-1]
 
@@ -153,13 +152,11 @@ def poke_state(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> S
     The accelerations are affine in the external force, so the jump is the acceleration with the force, minus that
     without it, times one second.
     """
-    mass = vehicle.bob_mass if poke.on == "bob" else vehicle.mass
-    blow = Disturbance(**{f"force_on_{poke.on}": mass * in_frame(poke.velocity, e3)})
-    hit, free = disturbed_motion(state, STILL, vehicle, e3, blow), disturbed_motion(state, STILL, vehicle, e3)
-    return State(
-        x=state.x, x_dot=state.x_dot + hit.x_ddot - free.x_ddot, R=state.R, omega=state.omega, y=state.y,
-        y_dot=state.y_dot + hit.y_ddot - free.y_ddot,
-    )  # fmt: skip
+    mass, up = vehicle.bob_mass if poke.on == "bob" else vehicle.mass, state.in_frame(e3)
+    blow = Disturbance(**{f"force_on_{poke.on}": mass * poke.velocity})
+    hit, free = disturbed_motion(up, STILL, vehicle, "up", blow), disturbed_motion(up, STILL, vehicle, "up")
+    jumps = {"x_dot": up.x_dot + hit.x_ddot - free.x_ddot, "y_dot": up.y_dot + hit.y_ddot - free.y_ddot}
+    return replace(up, **jumps).in_frame(e3)
 
 
 def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: list[Samples]) -> Trajectory:

@@ -19,7 +19,7 @@ from flypend.lab.own import NONE, OwnLaws
 from flypend.laws import BoundLaw, Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.shipped import vehicle_table
-from flypend.model.state import FLIP, SHAPES
+from flypend.model.state import SHAPES
 from flypend.model.table import vehicle_names
 from flypend.pages.sliders import sliders_of
 from flypend.pages.starts import plain
@@ -212,8 +212,3 @@ def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
         law.bind(vehicle)
     except InputError as error:
         raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
-
-
-def in_frame(vector: Any, e3: str) -> Any:
-    """Return `vector` (3,), given in the e₃-up frame, in the frame `e3`."""
-    return np.asarray(vector, dtype=float) if e3 == "up" else FLIP @ vector

@@ -5,16 +5,13 @@ from __future__ import annotations
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
+import flypend as fp
 from flypend.cli.options import LAW_HELP, option, options_of, out_option, sensors_asked, sensors_option, vehicle_option
 from flypend.cli.terminal import bold, console, say
-from flypend.errors import InputError
-
-if TYPE_CHECKING:
-    from flypend.laws import Law
+from flypend.errors import InputError, one_of
 
 
 @click.command("export-c")
@@ -39,25 +36,20 @@ def export_c(
     With nmpc, the flight computer is that of the inverted law. Beside it comes a plan from hanging at rest, with code
     that improves the plan in flight.
     """
-    from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
-    from flypend.export import export_c as write
-    from flypend.export import export_nmpc
-    from flypend.laws import inverted
-    from flypend.planning.planner import plan
     from flypend.plants.sensors import sensors_called
 
     if light:
-        errors.one_of("--law", law, ("inverted",))
-    chosen = inverted(form="light") if light else inverted() if law == "nmpc" else _symbolic(law)
-    kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
+        one_of("--law", law, ("inverted",))
+    chosen = fp.laws.inverted(form="light") if light else fp.laws.inverted() if law == "nmpc" else _symbolic(law)
+    kind = next(known for known in PRECISIONS if known == one_of("--precision", precision, PRECISIONS))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
         read = sensors_called(sensors_asked(sensors), "--sensors")
-        machine = model.vehicle(vehicle)
+        machine = fp.vehicle(vehicle)
         if law == "nmpc":
-            export_nmpc(plan(machine, model.State(y=(0, 0, -1))), out, precision=kind)
-        write(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
+            fp.export_nmpc(fp.plan(machine, fp.State(y=(0, 0, -1))), out, precision=kind)
+        fp.export_c(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     if law == "nmpc":
@@ -86,26 +78,23 @@ class App:
 @sensors_option
 def export_app(target: str, vehicle: str, out: Path, law: str, own: App, sensors: str) -> None:
     """Write an app for the firmware of TARGET, crazyflie or px4, that flies VEHICLE; see docs/export."""
-    from flypend import model
-    from flypend.export import export_app as write
     from flypend.plants.sensors import sensors_called
 
     read = sensors_called(sensors_asked(sensors), "--sensors")
-    machine, chosen = model.vehicle(vehicle), _symbolic(law)
-    flown = write(target, chosen, machine, out, sensors=read, **vars(own))
+    machine, chosen = fp.vehicle(vehicle), _symbolic(law)
+    flown = fp.export_app(target, chosen, machine, out, sensors=read, **vars(own))
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")
     console.print(f"The app with the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
-def _symbolic(name: str) -> Law:
+def _symbolic(name: str) -> fp.Law:
     """The law called `name`. Raises InputError for one that is not written in symbols."""
-    from flypend.laws import Law
     from flypend.studies import law_named
 
     chosen = law_named(name)
-    if not isinstance(chosen, Law):
+    if not isinstance(chosen, fp.Law):
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{name}, which is not{because}")
     return chosen

@@ -10,9 +10,12 @@ from pathlib import Path
 
 import click
 
+import flypend as fp
 from flypend.cli.options import LAW_HELP, Output, option, options_of, out_option, path, refuse_idle, style_option
 from flypend.cli.terminal import bold, console, counter, draw, lacking, say, tell_how
-from flypend.errors import InputError, require
+from flypend.errors import InputError, one_of, require
+from flypend.files.staging import staging
+from flypend.files.whole import whole_file
 
 
 @dataclass(frozen=True)
@@ -130,9 +133,7 @@ def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, s
     RUNS are one to four files saved by flypend (.nc); the camera follows the first. With --out flight.mcap, one run is
     written for Foxglove, PlotJuggler and ROS 2's tools, which needs the extra logs.
     """
-    from flypend.flight.trajectory import load
-
-    first, *others = [load(path) for path in runs]
+    first, *others = [fp.load(path) for path in runs]
     if out.suffix.lower() == ".mcap":
         if others:
             raise InputError("RUNS", "one run, for a file .mcap", f"{len(runs)}")
@@ -154,14 +155,12 @@ def replay(runs: tuple[Path, ...], out: Path, beside: bool, title: str | None, s
 )
 def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tuple[int, int]) -> None:
     """Write a slow-motion movie of RUN, a file saved by flypend (.nc)."""
-    from flypend import errors
-    from flypend.flight.trajectory import load
     from flypend.pictures.animate import check_encoder
     from flypend.pictures.animate import movie as film
     from flypend.pictures.drawing import VIEWS
 
-    view = errors.one_of("--camera", camera, VIEWS)
-    flight = load(run)
+    view = one_of("--camera", camera, VIEWS)
+    flight = fp.load(run)
     check_encoder(out)
     with counter() as tell:
         film(flight, out, view=view, speed=speed, fps=fps, size=size, progress=lambda *n: tell("filming", *n))
@@ -176,13 +175,11 @@ def movie(run: Path, out: Path, camera: str, speed: float, fps: float, size: tup
 @click.option("--title/--no-title", "titles", default=True, help="Draw titles; a figure with a caption needs none.")
 def figures(run: Path, out: Path, style: str, font: str, titles: bool) -> None:
     """Draw the figures of RUN, a file saved by flypend (.nc), each as .pdf and .png."""
-    from flypend.files.staging import staging
-    from flypend.flight.trajectory import load
     from flypend.pictures.style import style_named
     from flypend.report.flight import figure_tasks
 
     form = style_named(style, font=font, titled=titles)
-    flight = load(run)
+    flight = fp.load(run)
     with staging(out) as folder:
         draw(figure_tasks(flight, folder, style=form))
     console.print(f"Figures are in {bold(out)}.")
@@ -198,7 +195,6 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | 
     """Open the laboratory in a browser: move sliders, drag the rod, poke it, watch the flight. Ctrl-C ends it."""
     if html is not None:
         refuse_idle("host", "port", "browser", "law", why="beside --html, whose page has no server")
-        from flypend.files.whole import whole_file
         from flypend.lab.alone import page_alone
 
         with whole_file(html, (".html",)) as written, counter() as tell:

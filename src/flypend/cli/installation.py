@@ -9,8 +9,10 @@ from typing import Any
 
 import click
 
+import flypend as fp
 from flypend.cli.options import FIGURE, out_option, path, vehicle_option
 from flypend.cli.terminal import bold, console
+from flypend.errors import InputError
 from flypend.files.staging import write_texts
 from flypend.files.whole import check_same, save_figure
 
@@ -23,11 +25,10 @@ SUFFIXES = (".toml", ".py")  # of examples; others are Python's bytecode
 @vehicle_option
 def laws(name: str | None, vehicle: str) -> None:
     """List the laws with their gains: default for a vehicle, unit, meaning. NAME selects one, or a law of yours."""
-    from flypend import model
     from flypend.laws import law_names
     from flypend.settings.laws import OTHERS, law_named
 
-    machine = model.vehicle(vehicle)
+    machine = fp.vehicle(vehicle)
     width = min(WIDTH, console.width)
     for each in [name] if name else law_names():
         law = law_named(each, key="law")
@@ -42,8 +43,6 @@ def laws(name: str | None, vehicle: str) -> None:
 @click.option("-o", "--out", type=FIGURE, help="Draw VEHICLE into this file, .png, .pdf or .svg.")
 def vehicles(vehicle: str | None, out: Path | None) -> None:
     """List the vehicles, or print the TOML of VEHICLE (a name or a file), or with -o draw it on its mounts."""
-    from flypend import model
-    from flypend.errors import InputError
     from flypend.model.shipped import vehicle_text
 
     if vehicle is None:
@@ -57,19 +56,18 @@ def vehicles(vehicle: str | None, out: Path | None) -> None:
         return
     from flypend.pictures.machine import machine_figure
 
-    save_figure(machine_figure(model.vehicle(vehicle)), out)
+    save_figure(machine_figure(fp.vehicle(vehicle)), out)
     console.print(f"The drawing is {bold(out)}.")
 
 
 def _vehicles() -> Any:
     """The table of the package's vehicles."""
-    from flypend import model
     from flypend.model.table import vehicle_names
 
     units = ("mass\nkg", "bob\nkg", "rod\nm", "thrust/\nweight", "lag\ns", "rotors", "g\nm/s²")
     found = _table("vehicle", *units)
     for name in vehicle_names():
-        v = model.vehicle(name)
+        v = fp.vehicle(name)
         rotors = len(v.rotor_spins)
         ratio = f"{rotors * v.rotor_limits[1] / v.weight:.3g}"
         numbers = (f"{x:g}" for x in (v.mass, v.bob_mass, v.rod_length))
@@ -81,8 +79,6 @@ def _vehicles() -> Any:
 
 def _gains(law: Any, machine: Any) -> Any:
     """The table of the gains of a law."""
-    from flypend.errors import InputError
-
     found = _table("gain", "default", "unit", "meaning")
     for gain in law.table.values():
         try:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import flypend as fp
 from flypend.cli.options import (
     BANDS_HELP,
     FLOOR_HELP,
@@ -22,6 +23,8 @@ from flypend.cli.options import (
     vehicle_option,
 )
 from flypend.cli.terminal import bold, console, counter, tell_how
+from flypend.errors import InputError, one_of
+from flypend.files.whole import check_file, check_same, whole_file
 
 if TYPE_CHECKING:
     from flypend.identification import Command
@@ -55,12 +58,10 @@ def new(out: Path, force: bool, **measured: Any) -> None:
 
     Quantities are SI numbers or have a unit: 620g, 17cm, 820gf.
     """
-    from flypend.files.whole import check_same, whole_file
-    from flypend.model import Vehicle
     from flypend.model.estimate import Measured, guess
 
     found = guess(Measured(**measured, name=out.stem))
-    machine = Vehicle(**found.fields)
+    machine = fp.Vehicle(**found.fields)
     if not force:
         check_same(out, found.text().encode(), "the vehicle")
     with whole_file(out, (".toml",)) as partial:
@@ -109,14 +110,10 @@ def identify(
     exact. The columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry,
     rz, vbat. For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag.
     """
-    from flypend import model
-    from flypend.errors import InputError
     from flypend.files.toml import toml_text
-    from flypend.files.whole import check_file, whole_file
-    from flypend.identification import identify as find
     from flypend.identification.manoeuvre import rehearsal_of, write_log
 
-    machine = model.vehicle(vehicle)
+    machine = fp.vehicle(vehicle)
     with counter() as tell:
         if rehearsal.asked:
             refuse_idle("marker", "command", why="beside --rehearse, whose log is its own")
@@ -128,7 +125,7 @@ def identify(
             machine = guess
         else:
             refuse_idle("seed", "duration", why="without --rehearse")
-        found = find(log, machine, marker=marker, command=command, mass_error=mass_error, progress=tell)
+        found = fp.identify(log, machine, marker=marker, command=command, mass_error=mass_error, progress=tell)
     with whole_file(out, (".toml",)) as partial:
         partial.write_text(toml_text(found.vehicle.to_dict()), encoding="utf-8")
     console.print(found.report(), markup=False, highlight=False, soft_wrap=True)
@@ -170,18 +167,15 @@ def check(
     Each task gets a grade: flights succeed from all, most (at least 90 %), some or none of its starts. If a law cannot
     even hover, the exit code is 1 and the reason is printed. The default law is inverted.
     """
-    from flypend import errors, model
     from flypend.plants import PRESETS
     from flypend.report.check import check_tables, joint_lines, verdicts, write_check
     from flypend.settings.runfile import plant_of
     from flypend.studies import law_named
     from flypend.studies.advice import advise
-    from flypend.studies.check import check as examine
     from flypend.studies.joint import joint
-    from flypend.studies.trial import trial as try_
 
-    machine = model.vehicle(vehicle)
-    errors.one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
+    machine = fp.vehicle(vehicle)
+    one_of("--plant", own.plant, [name for name in PRESETS if name != "ideal"])
     asked = plant_asked(own.plant, own.sensors, own.floor)
     measured = isinstance(asked, dict) and "sensors" in asked
     if measured and margins is None:
@@ -193,11 +187,11 @@ def check(
     checks, trials, joints = {}, {}, {}
     with counter() as tell:
         for name, each in laws.items():
-            checks[name] = examine(
+            checks[name] = fp.check(
                 machine, each, plant=world, runs=own.runs, seed=seed, margins=margins, bands=own.bands, progress=tell
             )
             if trial and checks[name].tasks:
-                trials[name] = try_(machine, each, plant=world, seed=seed, progress=tell)
+                trials[name] = fp.trial(machine, each, plant=world, seed=seed, progress=tell)
             if measured and checks[name].tasks:
                 joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
         advice = advise(machine, checks, plant=world, seed=seed, progress=tell) if own.advise else None

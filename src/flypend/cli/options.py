@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 import click
 
-from flypend.errors import InputError
+from flypend.errors import InputError, one_of
 from flypend.files.staging import check_writable
 from flypend.files.whole import FIGURES, check_file
 
@@ -118,13 +118,12 @@ def sensors_asked(sensors: str) -> Any:
 
     Raises InputError.
     """
-    from flypend import errors
     from flypend.files.toml import read_toml
     from flypend.plants import SUITES
     from flypend.plants.sensors import sensors_called
 
     if Path(sensors).suffix != ".toml":
-        return errors.one_of("--sensors", sensors, SUITES)
+        return one_of("--sensors", sensors, SUITES)
     table = read_toml(sensors)
     return "perfect" if sensors_called(table, "--sensors") is None else table
 
@@ -134,13 +133,12 @@ def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:
 
     Raises InputError.
     """
-    from flypend import errors
     from flypend.plants import PRESETS
 
-    errors.one_of("--plant", plant, PRESETS)
+    one_of("--plant", plant, PRESETS)
     measured = sensors_asked(sensors)
     perfect = measured == "perfect"
     if plant == "ideal" and not perfect:
-        raise errors.InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
+        raise InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
     given = ({} if perfect else {"sensors": measured}) | ({} if floor is None else {"floor": floor})
     return {"base": plant, **given} if given else plant

@@ -7,8 +7,10 @@ from pathlib import Path
 
 import click
 
+import flypend as fp
 from flypend.cli.options import option, options_of, out_option, refuse_idle, style_option
 from flypend.cli.terminal import bold, console, counter, lacking
+from flypend.files.staging import staging
 
 
 @click.command()
@@ -46,11 +48,9 @@ class Basin:
 
     def measure(self, out: Path, runs: int, seed: int) -> None:
         """Measure the basin of the certified set, save it in `out` and print it."""
-        from flypend import model
-        from flypend.files.staging import staging
         from flypend.studies.basin import measure_basin
 
-        machine = model.vehicle(self.vehicle)
+        machine = fp.vehicle(self.vehicle)
         if self.mount is not None:
             machine = machine.replace(mount=self.mount)
         with staging(out) as folder, counter() as tell:

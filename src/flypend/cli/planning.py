@@ -10,19 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import flypend as fp
 from flypend.cli.options import FIGURE, Output, option, options_of, out_option, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
+from flypend.errors import array, number, one_of
+from flypend.files.whole import save_figure
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
-
-    from flypend.flight.trajectory import Trajectory
-    from flypend.model import State, Vehicle
-    from flypend.planning.constraints import Constraints
-    from flypend.planning.result import Plan
 
 CELLS = 10  # of the map, along each side of a hemisphere
 
@@ -63,41 +61,35 @@ class Kept:
         'Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.', metavar="EXPR"
     )
 
-    def state(self, target: ArrayLike) -> State | None:
+    def state(self, target: ArrayLike) -> fp.State | None:
         """Return the state in which it ends at the `target`, m; None for the end of a path."""
-        from flypend import errors
-        from flypend.model import State
-
         if self.path is not None:
             refuse_idle("target", "end", why="beside --path, at whose end it hovers")
             return None
         if self.end.endswith(".toml"):
             refuse_idle("target", why=f"beside --end {self.end}, which says where")
             return _from(self.end, "")[1]
-        up = errors.one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
-        return State(x=errors.array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
+        up = one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
+        return fp.State(x=array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
 
-    def about(self, target: ArrayLike, given: Mapping[str, Any]) -> Constraints:
+    def about(self, target: ArrayLike, given: Mapping[str, Any]) -> fp.Constraints:
         """Return the constraints of a flight to the `target`, m: those `given`, but for what the options say."""
         import numpy as np
 
-        from flypend import errors
-        from flypend.planning.constraints import Constraints
-        from flypend.planning.window import Window
         from flypend.settings.laws import own_from
 
-        half = None if self.cube is None else errors.number("--cube", self.cube, above=0, unit="m") / 2
+        half = None if self.cube is None else number("--cube", self.cube, above=0, unit="m") / 2
         own = {
             "floor": self.floor, "ceiling": self.ceiling, "speed": self.speed, "clearance": self.clearance,
             "box": None if half is None else np.add(((-half,) * 3, (half,) * 3), target),
             "lean": None if self.lean is None else np.radians(self.lean),
-            "window": [Window(place[:3], *place[3:]) for place in self.window] or None,
+            "window": [fp.Window(place[:3], *place[3:]) for place in self.window] or None,
             "waypoints": self.waypoints or None,
             "path": None if self.path is None else own_from(self.path, None, "path", "--path"),
             "keep": None if self.keep is None else own_from(self.keep, None, "keep", "--keep"),
             "cost": None if self.cost is None else own_from(self.cost, None, "cost", "--cost"),
         }  # fmt: skip
-        return Constraints(**{**given, **{name: value for name, value in own.items() if value is not None}})
+        return fp.Constraints(**{**given, **{name: value for name, value in own.items() if value is not None}})
 
 
 @dataclass(frozen=True)
@@ -141,23 +133,18 @@ def plan(
     The run file also gives the vehicle and, if its law is "plan", objective, target and constraints, which options
     override. Any other law, and the duration, are ignored. Figures are .png, .pdf or .svg.
     """
-    from flypend import errors
-    from flypend.flight.metrics import metrics
-    from flypend.flight.simulate import simulate
-    from flypend.planning.planner import plan as planned
-    from flypend.planning.tracking import track
     from flypend.plants import plant
 
     if what is not None:
         refuse_idle("vehicle", why=f"beside {what}, which names its own")
     if also.fly is not None:
-        plant(errors.one_of("--fly", also.fly, ("rotors", "mujoco")))
+        plant(one_of("--fly", also.fly, ("rotors", "mujoco")))
     machine, start, asked = _from(what, vehicle)
     given = {"objective": "excursion", "target": (0.0, 0.0, 0.0), **asked}
     given |= {name: value for name, value in {"objective": objective, "target": target}.items() if value is not None}
     aim, place = given.pop("objective"), given.pop("target")
     kept = keep.about(place, given)
-    found = planned(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
+    found = fp.plan(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
@@ -167,14 +154,12 @@ def plan(
     if not found:
         sys.exit(1)
     if also.in_c is not None:
-        from flypend.export import export_plan
-
-        export_plan(found, also.in_c)
+        fp.export_plan(found, also.in_c)
         console.print(f"The table in C is in {bold(also.in_c)}.")
     shown, flown = found.trajectory, None
     if also.fly is not None:
-        shown = flown = simulate(machine, track(found), start, found.duration + 2, plant=also.fly)
-        judged = metrics(flown)
+        shown = flown = fp.simulate(machine, fp.track(found), start, found.duration + 2, plant=also.fly)
+        judged = fp.metrics(flown)
         verdict = "stands" if judged.success else f"does not stand ({judged.cause})"
         console.print(f"Flown on {also.fly}: {verdict}, excursion {judged.excursion:.3f} m.")
     if also.html is not None:
@@ -184,16 +169,12 @@ def plan(
         _draw(found, flown, start, kept, also)
 
 
-def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints, also: Outputs) -> None:
+def _draw(found: fp.Plan, flown: fp.Trajectory | None, start: fp.State, kept: fp.Constraints, also: Outputs) -> None:
     """Draw the figures of a plan that was `found` from `start` with the constraints `kept`.
 
     A front shows the inverted law beside the plans, which knows nothing of constraints.
     """
-    from flypend.files.whole import save_figure
-    from flypend.flight.simulate import simulate
-    from flypend.laws import inverted, references
     from flypend.pictures.plans import front_figure, plan_figure, strays_figure
-    from flypend.planning.receding_horizon import nmpc
     from flypend.studies.limit import DURATION, front, strays
 
     def save(figure: Figure, path: Path) -> None:
@@ -207,23 +188,22 @@ def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints
             plans = front(
                 found.vehicle, start, progress=partial(tell, "planning"), target=found.target, constraints=kept
             )
-            law = simulate(found.vehicle, inverted(references.hover(found.target)), start, DURATION)
+            law = fp.simulate(found.vehicle, fp.laws.inverted(fp.laws.references.hover(found.target)), start, DURATION)
             save(front_figure(plans, law), also.front)
         if also.sphere is not None:
-            save(strays_figure(strays(found.vehicle, (inverted(), nmpc()), CELLS, tell=tell)), also.sphere)
+            save(strays_figure(strays(found.vehicle, (fp.laws.inverted(), fp.nmpc()), CELLS, tell=tell)), also.sphere)
 
 
-def _from(what: str | None, name: str) -> tuple[Vehicle, State, dict[str, Any]]:
+def _from(what: str | None, name: str) -> tuple[fp.Vehicle, fp.State, dict[str, Any]]:
     """Return vehicle and start (e₃ up) of the run file `what`, and the arguments of `plan` if its law is "plan".
 
     Without a run file, the vehicle is `name`, with its rod hanging.
     """
-    from flypend import model
     from flypend.settings.laws import plan_from
     from flypend.settings.runfile import run_file
 
     if what is None:
-        return model.vehicle(name), model.State(y=(0.0, 0.0, -1.0)), {}
+        return fp.vehicle(name), fp.State(y=(0.0, 0.0, -1.0)), {}
     flight, settings = run_file(what)
     law = settings["law"]
     arguments = plan_from(law) if law.get("name") == "plan" else {}

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import flypend as fp
 from flypend.cli.options import (
     FLOOR_HELP,
     LAW_HELP,
@@ -30,11 +31,12 @@ from flypend.cli.options import (
     within_bands,
 )
 from flypend.cli.terminal import bold, console, counter, import_in_background, lacking, resumable, tell_how
-from flypend.files.whole import FIGURES
+from flypend.errors import InputError, number, one_of, require
+from flypend.files.staging import staging
+from flypend.files.whole import FIGURES, save_figure
 
 if TYPE_CHECKING:
     from flypend.plants import AnyPlant
-    from flypend.studies.sweep import Study
 
 REPORTED = 2000  # starts of the report where no study names them
 CHECKPOINT = "checkpoint.npz"  # of learning
@@ -57,18 +59,17 @@ class Starts:
 
     def of(self, names: Sequence[str]) -> tuple[list[Any], Any, Any, dict[str, Any]]:
         """Return the laws called `names`, starts and vehicle, and the settings for a report. Raises InputError."""
-        from flypend import errors, model
-        from flypend.studies import law_named, paper_starts, random_starts
+        from flypend.studies import law_named, paper_starts
 
         laws = [law_named(name) for name in names]
         for law in laws:
             tell_how(law)
-        machine = model.vehicle(self.vehicle)
-        errors.number("--duration", self.duration, above=0, unit="s")
-        kind = errors.one_of("--starts", self.starts, ("random", "paper"))
+        machine = fp.vehicle(self.vehicle)
+        number("--duration", self.duration, above=0, unit="s")
+        kind = one_of("--starts", self.starts, ("random", "paper"))
         if kind == "paper":
             refuse_idle("runs", "seed", why="beside --starts paper, which are five")
-        batch = paper_starts() if kind == "paper" else random_starts(self.runs, self.seed)
+        batch = paper_starts() if kind == "paper" else fp.random_starts(self.runs, self.seed)
         settings = {"laws": list(names), "vehicle": machine.name, "starts": kind, "runs": len(batch)}
         settings["duration"] = self.duration
         return laws, batch, machine, settings | ({"seed": self.seed} if kind == "random" else {})
@@ -100,10 +101,8 @@ def compare(
     A run succeeds if, during the last second, |y - e₃| and |z - e₃| stay below 0.05 and the pivot stays within 0.2 m of
     its reference.
     """
-    from flypend.files.staging import staging
     from flypend.report.studies import comparison_table, write_comparison
     from flypend.settings.runfile import plant_of
-    from flypend.studies import compare as fly
     from flypend.studies.failed import files_of_failures, fly_again
 
     asked, duration = plant_asked(plant, sensors, floor), chosen.duration
@@ -115,7 +114,7 @@ def compare(
     import_in_background(lambda: import_module("flypend.pictures.studies"))
     with counter() as tell:
         flying = lambda name, done, total: tell(f"flying {name}", done, total)  # noqa: E731
-        result = fly(machine, laws, batch, duration, plant=drawn or world, progress=flying)
+        result = fp.compare(machine, laws, batch, duration, plant=drawn or world, progress=flying)
     failed = files_of_failures(result, names, asked, duration, drawn)
     write_comparison(result, settings, out, failed)
     if keep is not None:
@@ -185,9 +184,7 @@ def sweep(
     After any interruption, the same command resumes the sweep. The result is bit-identical
     to that of an uninterrupted one.
     """
-    from flypend.studies.sweep import study as study_from
-
-    fly_study(study_from(study, law), out, scheduler=scheduler, workers=workers, processes=processes, force=force)
+    fly_study(fp.study(study, law), out, scheduler=scheduler, workers=workers, processes=processes, force=force)
 
 
 @dataclass(frozen=True)
@@ -220,9 +217,6 @@ def draw_map(
     WHAT is the store of a sweep (.zarr), or the TOML file of a study to fly first. With a study or --law, the runs are
     saved to a store next to the map, and an interrupted command resumes.
     """
-    from flypend.errors import InputError, require
-    from flypend.files.whole import save_figure
-    from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.bins import check_plane
     from flypend.studies.sweep.study import standard
 
@@ -236,9 +230,9 @@ def draw_map(
     made, store = None, what
     if own.law is not None:
         plant = plant_asked(own.plant, own.sensors, own.floor)
-        made = study_from(standard(own.law, own.vehicle, plant, own.runs, own.seed, own.duration))
+        made = fp.study(standard(own.law, own.vehicle, plant, own.runs, own.seed, own.duration))
     elif what is not None and what.suffix == ".toml":
-        made = study_from(what)
+        made = fp.study(what)
     else:
         refuse_idle("workers", "force", why="beside a store, whose runs are flown")
     if made is not None:
@@ -269,26 +263,23 @@ def tune(
     Costs are saved after every generation, so the same command resumes an interrupted search.
     Writes tuned.toml, an input of flypend run, and the history of the search as JSON and as a figure.
     """
-    from flypend.errors import InputError
     from flypend.report.tuning import summarise, write_tuned
-    from flypend.studies.sweep import study as study_from
     from flypend.studies.sweep.study import standard
     from flypend.studies.tune import DRAWN
-    from flypend.studies.tune import tune as search
 
     if (study is None) == (vehicle is None):
         raise InputError("tune", "a study, or --vehicle", "none" if study is None else "two of them")
     if study is not None:
         refuse_idle("sensors", why="beside a study, which has its own")
-        made = study_from(study, law)
+        made = fp.study(study, law)
     else:
-        made = study_from(standard(law or "inverted", vehicle, plant_asked("rotors", sensors), REPORTED, 1, None))
+        made = fp.study(standard(law or "inverted", vehicle, plant_asked("rotors", sensors), REPORTED, 1, None))
     if bands:
         made = replace(made, tune={"bands": DRAWN, "runs": 10 * DRAWN, **made.tune})
     tell_how(made.law)
     with resumable(), counter(rate=True) as tell:
         progress = partial(tell, "generations")
-        result = search(made, workers=workers, costs=out / "costs.jsonl", progress=progress)
+        result = fp.tune(made, workers=workers, costs=out / "costs.jsonl", progress=progress)
     write_tuned(result, out)
     console.print(f"before: {summarise(result.before)}", markup=False)
     console.print(f"after:  {summarise(result.after)}", markup=False)
@@ -317,18 +308,15 @@ def learn(
     network sees states with the errors of an estimator. The result is compared with the inverted law on other such
     machines, with these sensors.
     """
-    from flypend import model
-    from flypend.laws import inverted, learned, lqr
     from flypend.learning.training import Learner, usual
     from flypend.plants import as_sampled
     from flypend.report.learning import write_learned
     from flypend.report.studies import comparison_table
     from flypend.settings.runfile import plant_of
-    from flypend.studies import compare, random_starts
     from flypend.studies.advice import best_of
     from flypend.studies.starts import check_starts
 
-    machine = model.vehicle(vehicle)
+    machine = fp.vehicle(vehicle)
     if mount is not None:
         machine = machine.replace(mount=mount)
     check_starts(runs, HELD_OUT + seed)
@@ -348,27 +336,25 @@ def learn(
                 learner.save(checkpoint)
     policy = write_learned(learner, out)
     console.print(f"The policy is {bold(policy)}, its training {bold(out / 'curve.png')}.")
-    laws, starts = [learned(policy=str(policy)), inverted()], random_starts(runs, HELD_OUT + seed)
+    laws, starts = [fp.laws.learned(policy=str(policy)), fp.laws.inverted()], fp.random_starts(runs, HELD_OUT + seed)
     if not bands:  # LQR flies few of these starts as written, too, and a machine takes long to compile
-        laws.append(lqr())
+        laws.append(fp.laws.lqr())
     worlds = list(within_bands(machine, asked, HELD_OUT + seed).values()) if bands else [world]
-    comparison = compare(machine, laws, starts, plant=worlds)
+    comparison = fp.compare(machine, laws, starts, plant=worlds)
     console.print(comparison_table(comparison))
     best = best_of(comparison.ensembles)
     console.print(f"The best law here is {best}." if best else "None of these laws succeeds from 90 % of the starts.")
 
 
-def fly_study(made: Study, store: Path, *, processes: bool = False, **options: Any) -> None:
+def fly_study(made: fp.Study, store: Path, *, processes: bool = False, **options: Any) -> None:
     """Fly the study `made` into `store` with these options of `studies.sweep`, and print the success rate."""
     from flypend.flight.metrics import wilson
-    from flypend.laws import Controller
-    from flypend.studies.sweep import sweep as fly
 
     tell_how(made.law)
-    if isinstance(made.law, Controller) and options.get("scheduler") is None:
+    if isinstance(made.law, fp.Controller) and options.get("scheduler") is None:
         processes = True  # it flies step by step in Python, so that only processes can use more than one core
     with resumable(), counter(rate=True) as tell:
-        flown = fly(made, store, processes=processes, **options, progress=partial(tell, f"flying {made.law.name}"))
+        flown = fp.sweep(made, store, processes=processes, **options, progress=partial(tell, f"flying {made.law.name}"))
     good, runs = int(flown.success.sum()), made.runs
     low, high = wilson(good, runs)
     rate = f"{100 * good / runs:.4g} % (95 % interval {100 * low:.4g} to {100 * high:.4g} %)"

@@ -42,8 +42,7 @@ from flypend.lab.shares import Shares
 from flypend.lab.tuning import tune_loop
 from flypend.lab.worker import END, GRACE, encode
 from flypend.laws import law_names
-from flypend.pages.sliders import DEFECTS, sliders_of
-from flypend.pages.starts import directions
+from flypend.pages.offers import DEFECTS, directions, sliders_of
 from flypend.paper import experiment
 from flypend.plants import SUITES
 from flypend.plants.defects import NAMES, room

@@ -21,8 +21,7 @@ from flypend.lab.setting import Setting, setting_of
 from flypend.lab.tuning import Tell, tune_loop
 from flypend.laws import BoundLaw
 from flypend.pages import replay
-from flypend.pages.sliders import sliders_of
-from flypend.pages.starts import plain
+from flypend.pages.offers import plain, sliders_of
 
 log = logging.getLogger(__name__)
 Replies = Iterator[dict[str, Any]]

@@ -9,7 +9,7 @@ from typing import Any
 from flypend.files.toml import toml_text
 from flypend.lab.setting import Setting
 from flypend.model import Vehicle, vehicle
-from flypend.pages.starts import plain
+from flypend.pages.offers import plain
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 from flypend.plants.defects import NAMES, names_drawn
 from flypend.plants.sensors import SUITES, Sensors

@@ -29,7 +29,7 @@ from flypend.lab.setting import Poke, Setting
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tune_loop, values
 from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
 from flypend.model.state import SHAPES, SIZE, E3Direction, convert_packed, split
-from flypend.pages.starts import directions
+from flypend.pages.offers import directions
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))

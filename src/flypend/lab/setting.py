@@ -21,8 +21,7 @@ from flypend.model import State, Vehicle
 from flypend.model.shipped import vehicle_table
 from flypend.model.state import SHAPES
 from flypend.model.table import vehicle_names
-from flypend.pages.sliders import sliders_of
-from flypend.pages.starts import plain
+from flypend.pages.offers import plain, sliders_of
 from flypend.plants import Ideal
 from flypend.plants.knobs import LONGEST_SHIFT
 from flypend.plants.sensors import SUITES

@@ -14,6 +14,7 @@ import sys
 import time
 from pathlib import Path
 
+import click
 import numpy as np
 import pytest
 from rich.console import Console
@@ -716,10 +717,10 @@ def test_help_says_whether_a_command_writes_a_folder_or_a_file():
     for name, command in app.commands.items():
         for option in command.params:
             if "-o" in option.opts:
-                kinds[name] = option.metavar
+                kinds[name] = metavar = option.make_metavar(click.Context(command))
                 default = option.default if isinstance(option.default, str) else ""
-                assert option.metavar == ("FILE" if Path(default).suffix or name == "vehicles" else option.metavar)
-                assert ("folder" in option.help.lower()) == (option.metavar != "FILE"), name
+                assert metavar == ("FILE" if Path(default).suffix or name == "vehicles" else metavar)
+                assert ("folder" in option.help.lower()) == (metavar != "FILE"), name
     files = {"identify", "map", "plan", "replay", "movie", "vehicles"}
     assert {name for name, kind in kinds.items() if kind == "FILE"} == files
     assert {name for name, kind in kinds.items() if kind == "STORE"} == {"sweep"}

@@ -55,8 +55,7 @@ def test_everything_is_in_the_wheel(site):
     assert found == wanted
     some = {
         "py.typed",
-        "pages/web/replay.js",
-        "pages/web/lab.js",
+        "pages/web/page.js",
         "vehicles/hehn2011.toml",
         "examples/my_law.py",
     }

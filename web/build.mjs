@@ -40,6 +40,6 @@ const style = {
 
 await mkdir(out, { recursive: true });
 await build({
-  ...common, entryPoints: ["src/replay.js", "src/lab.js"], legalComments: "inline", outdir: out, plugins: [style, worker],
+  ...common, entryPoints: ["src/page.js"], legalComments: "inline", outdir: out, plugins: [style, worker],
 });
 await copyFile(join(here, "node_modules/three/LICENSE"), join(out, "THREE-LICENSE.txt"));

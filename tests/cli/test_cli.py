@@ -14,14 +14,15 @@ import sys
 import time
 from pathlib import Path
 
+import click
 import numpy as np
 import pytest
 from rich.console import Console
 
 import flypend as fp
-from flypend.cli import listing, terminal
+from flypend.cli import installation, terminal
 from flypend.cli.app import app
-from flypend.cli.bars import progress_bar
+from flypend.cli.terminal import progress_bar
 from flypend.files import whole as files
 from flypend.flight import simulate
 from flypend.flight.trajectory import Trajectory
@@ -600,11 +601,11 @@ def test_laws_and_vehicles_are_listed_with_gains_units_and_defaults(call):
 @pytest.mark.parametrize("columns", ["80", "40"])
 def test_names_in_lists_are_whole_in_a_narrow_terminal(monkeypatch, capsys, columns):
     """What one types elsewhere is not cut short with …; in a table of gains, it goes on in the next line."""
-    monkeypatch.setattr(listing, "console", Console(width=int(columns)))
-    listing.vehicles.callback(None, None)
+    monkeypatch.setattr(installation, "console", Console(width=int(columns)))
+    installation.vehicles.callback(None, None)
     told = capsys.readouterr().out
     assert set(vehicle_names()) <= set(told.split())
-    listing.laws.callback("lqr", "hehn2011")
+    installation.laws.callback("lqr", "hehn2011")
     told = capsys.readouterr().out
     assert "…" not in told
     if columns == "80":
@@ -716,10 +717,10 @@ def test_help_says_whether_a_command_writes_a_folder_or_a_file():
     for name, command in app.commands.items():
         for option in command.params:
             if "-o" in option.opts:
-                kinds[name] = option.metavar
+                kinds[name] = metavar = option.make_metavar(click.Context(command))
                 default = option.default if isinstance(option.default, str) else ""
-                assert option.metavar == ("FILE" if Path(default).suffix or name == "vehicles" else option.metavar)
-                assert ("folder" in option.help.lower()) == (option.metavar != "FILE"), name
+                assert metavar == ("FILE" if Path(default).suffix or name == "vehicles" else metavar)
+                assert ("folder" in option.help.lower()) == (metavar != "FILE"), name
     files = {"identify", "map", "plan", "replay", "movie", "vehicles"}
     assert {name for name, kind in kinds.items() if kind == "FILE"} == files
     assert {name for name, kind in kinds.items() if kind == "STORE"} == {"sweep"}

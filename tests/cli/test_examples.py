@@ -14,7 +14,7 @@ from click import ClickException
 
 import flypend as fp
 from flypend.cli import app as cli
-from flypend.cli.examples import read_shipped
+from flypend.cli.installation import read_shipped
 from flypend.flight.metrics import metrics
 from flypend.flight.simulate import fly
 from flypend.settings.runfile import run_file

@@ -21,7 +21,7 @@ def little(monkeypatch):
         return Training(course, seed=seed, rounds=2, steps=5, updates=updates or 100, batch=16, hidden=(8, 8))
 
     monkeypatch.setattr(training, "usual", usual)
-    monkeypatch.setattr("flypend.cli.learning.OFTEN", 25)
+    monkeypatch.setattr("flypend.cli.studies.OFTEN", 25)
 
 
 def weights(path):

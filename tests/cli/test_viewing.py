@@ -152,19 +152,19 @@ def test_a_run_draws_in_the_style_asked_for(call, tmp_path, monkeypatch):
     ("arguments", "line"),
     [
         (["replay", "none.nc"], "none.nc: expected a run saved by flypend, got No such file or directory"),
-        (["replay", "{}/4.nc", "-o", "a.htm"], "path: expected a file name ending in .html, got a.htm"),
+        (["replay", "{}/4.nc", "-o", "a.htm"], "--out: expected a file name ending in .html or .mcap, got a.htm"),
         (["replay", "{}/4.nc", "--speed", "0"], "speed: expected a finite number > 0, got 0"),
         (["replay", *["{}/4.nc"] * 5], "runs: expected 1 to 4 runs, got 5"),
         (["movie", "{}/4.nc", "--camera", "sid"], "--camera: expected one of side, axis, got 'sid'"),
         (["movie", "{}/4.nc", "--speed", "-1"], "speed: expected a finite number > 0, got -1"),
-        (["movie", "{}/4.nc", "-o", "a.avi"], "path: expected a file name ending in .mp4 or .gif, got a.avi"),
+        (["movie", "{}/4.nc", "-o", "a.avi"], "--out: expected a file name ending in .mp4 or .gif, got a.avi"),
         (
             ["movie", "{}/4.nc", "--size", "3", "3"],
             "size: expected two even numbers of pixels, 160 to 4096, got (3, 3)",
         ),
         (["figures", "{}/4.nc", "--style", "poster"], "--style: expected one of paper, slides, got 'poster'"),
         (["run", "4", "--style", "slide"], "--style: expected one of paper, slides, got 'slide'"),
-        (["run", "4", "--html", "a.txt"], "path: expected a file name ending in .html, got a.txt"),
+        (["run", "4", "--html", "a.txt"], "--html: expected a file name ending in .html, got a.txt"),
         (["run", "4", "--html", "none/a.html"], "none/a.html: expected a file that can be written"),
         (["run", "4", "--live"], "--live: expected --html FILE, the page that flies, got none"),
         (

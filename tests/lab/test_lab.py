@@ -34,8 +34,7 @@ from flypend.lab import answers
 from flypend.lab.answers import answer, engine_of
 from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly, poke_state
-from flypend.lab.map import region
+from flypend.lab.flying import fly, poke_state, region
 from flypend.lab.server import LARGEST_MESSAGE, Laboratory
 from flypend.lab.session import Slot, read
 from flypend.lab.setting import Poke, setting_of
@@ -43,8 +42,7 @@ from flypend.lab.shares import Shares
 from flypend.lab.tuning import tune_loop
 from flypend.lab.worker import END, GRACE, encode
 from flypend.laws import law_names
-from flypend.pages.sliders import DEFECTS, sliders_of
-from flypend.pages.starts import directions
+from flypend.pages.offers import DEFECTS, directions, sliders_of
 from flypend.paper import experiment
 from flypend.plants import SUITES
 from flypend.plants.defects import NAMES, room
@@ -843,7 +841,7 @@ def test_it_listens_on_loopback_only(lab):
     status, headers = code(lab.url)
     assert status == 200
     assert "default-src 'none'" in headers["Content-Security-Policy"]
-    assert code(lab.url + "lab.js")[0] == 200
+    assert code(lab.url + "page.js")[0] == 200
     assert code(lab.url + "../pyproject.toml")[0] == 404
 
 
@@ -945,6 +943,7 @@ def test_whom_a_server_that_is_open_to_others_trusts():
     assert laboratory.trusts("localhost:80")
     assert not laboratory.trusts("evil.example:80")
     assert not laboratory.trusts("")
+    assert not laboratory.trusts("[a")
     laboratory.close()
 
 

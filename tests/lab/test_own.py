@@ -10,8 +10,7 @@ from flypend.flight.verdict import verdict
 from flypend.lab.answers import answer
 from flypend.lab.controls import offer, sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import fly
-from flypend.lab.map import region
+from flypend.lab.flying import fly, region
 from flypend.lab.own import OwnLaws
 from flypend.lab.setting import setting_of
 from flypend.lab.tuning import Stepped, tune_loop

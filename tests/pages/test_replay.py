@@ -273,9 +273,8 @@ def test_a_notebook_shows_the_page_in_a_frame_of_its_own(dense):
 WEB = Path(replay.__file__).parent / "web"
 
 
-@pytest.mark.parametrize("name", ["replay.js", "lab.js"])
-def test_the_program_keeps_its_licences_and_cannot_end_its_script(name):
-    program = (WEB / name).read_text(encoding="utf-8")
+def test_the_program_keeps_its_licences_and_cannot_end_its_script():
+    program = (WEB / "page.js").read_text(encoding="utf-8")
     assert program.isascii()
     assert "</script" not in program.lower()
     assert "<!--" not in program
@@ -298,7 +297,7 @@ def test_the_program_is_what_its_sources_give(tmp_path):
     for command in (["npm", "ci", "--silent"], ["node", "build.mjs", str(tmp_path / "built")]):
         done = subprocess.run(command, cwd=web, capture_output=True, text=True, timeout=300, check=False)
         assert done.returncode == 0, done.stderr
-    for name in ("replay.js", "lab.js", "THREE-LICENSE.txt"):
+    for name in ("page.js", "THREE-LICENSE.txt"):
         assert (tmp_path / "built" / name).read_bytes() == (WEB / name).read_bytes(), f"{name} is old: make web"
 
 
@@ -309,7 +308,7 @@ def test_the_wheel_carries_the_program(tmp_path):
 
     (wheel,) = WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"])
     names = zipfile.ZipFile(wheel).namelist()
-    wanted = ("replay.js", "lab.js", "THREE-LICENSE.txt")
+    wanted = ("page.js", "THREE-LICENSE.txt")
     assert {f"flypend/pages/web/{name}" for name in wanted} <= set(names)
 
 

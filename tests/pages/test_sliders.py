@@ -5,7 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.flight.live import live_loop
-from flypend.pages.sliders import _last_good, plant_sliders
+from flypend.pages.offers import _last_good, plant_sliders
 from flypend.plants import Plant, Wind
 
 VEHICLE = fp.vehicle("hehn2011")

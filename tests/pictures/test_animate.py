@@ -15,7 +15,7 @@ import flypend as fp
 from flypend import palette
 from flypend.flight.verdict import verdict
 from flypend.pages import sketch
-from flypend.pages.camera import project
+from flypend.pages.sketch import project
 from flypend.paper import experiment
 from flypend.pictures import animate, drawing, frames
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
-from typing import NoReturn
+from typing import Any, NoReturn, TextIO
 
 from flypend import signals
-from flypend.cli import streams
 
 WRITE_ERROR = 2  # exit code
 BROKEN_PIPE = 141  # as of a program that SIGPIPE ends
@@ -16,7 +16,7 @@ BROKEN_PIPE = 141  # as of a program that SIGPIPE ends
 def main() -> NoReturn:
     """Run the command line. A signal, and output that cannot be printed, end it in one line."""
     signals.install()
-    output = streams.take_over()
+    output = take_over()
     signals.watch()
     # The matrices here are 4 × 4, and kernels have threads of their own: threads of BLAS only take time to start.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -38,3 +38,46 @@ def main() -> NoReturn:
         if code == WRITE_ERROR:
             sys.stderr.write(f"flypend: stdout: expected a file that can be written, got {output.error.strerror}\n")
     sys.exit(code)  # type: ignore[arg-type]
+
+
+class Stream(io.FileIO):
+    """Writes to a file descriptor; after an `error` it takes whatever comes, so that nothing fails at the end."""
+
+    error: OSError | None = None
+
+    def write(self, data: Any) -> Any:
+        """Write `data`; drop it after an error."""
+        if self.error is None:
+            try:
+                return super().write(data)
+            except OSError as error:
+                self.error = error
+        return len(data)
+
+
+def take_over() -> Stream:
+    """Make stdout and stderr streams that may be closed or full, and return that of stdout.
+
+    Where the terminal's encoding lacks ✓ or ẍ, they print something else. Descriptors that are closed are opened, so
+    that no file takes their number: stdin reads nothing, stderr drops what it is given, stdout fails.
+    """
+    for number, mode in enumerate((os.O_RDONLY, os.O_RDONLY, os.O_WRONLY)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, mode)
+    if sys.stdin is None:
+        sys.stdin = open(0, closefd=False)  # noqa: SIM115 (a descriptor, for good)
+    output = Stream(1, "w", closefd=False)
+    sys.stdout, sys.stderr = _text(output, sys.stdout), _text(Stream(2, "w", closefd=False), sys.stderr)
+    return output
+
+
+def _text(stream: Stream, like: TextIO | None) -> io.TextIOWrapper:
+    """Return a text stream on top of `stream` that encodes and buffers as the one it replaces."""
+    encoding = getattr(like, "encoding", None)
+    lines = stream.isatty() or stream.fileno() == 2
+    unbuffered = getattr(like, "write_through", False)
+    return io.TextIOWrapper(
+        io.BufferedWriter(stream), encoding, "replace", line_buffering=lines, write_through=unbuffered
+    )

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from flypend.cli.options import LAW_HELP, out_option, sensors_asked, sensors_option, vehicle_option
+import flypend as fp
+from flypend.cli.options import LAW_HELP, option, options_of, out_option, sensors_asked, sensors_option, vehicle_option
 from flypend.cli.terminal import bold, console, say
-from flypend.errors import InputError
-
-if TYPE_CHECKING:
-    from flypend.laws import Law
+from flypend.errors import InputError, one_of
 
 
 @click.command("export-c")
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
 @vehicle_option
 @out_option("c-out")
 @click.option("--precision", default="double", help="double or float.")
-@click.option("--rate", type=float, default=500.0, help="Control rate, Hz.")
+@click.option("--rate", default=500.0, help="Control rate, Hz.")
 @sensors_option
 @click.option("--light", is_flag=True, help="Export the light form of the inverted law.")
 @click.option(
@@ -38,27 +36,20 @@ def export_c(
     With nmpc, the flight computer is that of the inverted law. Beside it comes a plan from hanging at rest, with code
     that improves the plan in flight.
     """
-    from flypend import errors, model
     from flypend.compile.c99 import PRECISIONS
-    from flypend.export import export_c as write
-    from flypend.export import export_nmpc
-    from flypend.files.staging import check_writable
-    from flypend.laws import inverted
-    from flypend.planning.planner import plan
     from flypend.plants.sensors import sensors_called
 
-    check_writable(out)
     if light:
-        errors.one_of("--law", law, ("inverted",))
-    chosen = inverted(form="light") if light else inverted() if law == "nmpc" else _symbolic(law)
-    kind = next(known for known in PRECISIONS if known == errors.one_of("--precision", precision, PRECISIONS))
+        one_of("--law", law, ("inverted",))
+    chosen = fp.laws.inverted(form="light") if light else fp.laws.inverted() if law == "nmpc" else _symbolic(law)
+    kind = next(known for known in PRECISIONS if known == one_of("--precision", precision, PRECISIONS))
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
         read = sensors_called(sensors_asked(sensors), "--sensors")
-        machine = model.vehicle(vehicle)
+        machine = fp.vehicle(vehicle)
         if law == "nmpc":
-            export_nmpc(plan(machine, model.State(y=(0, 0, -1))), out, precision=kind)
-        write(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
+            fp.export_nmpc(fp.plan(machine, fp.State(y=(0, 0, -1))), out, precision=kind)
+        fp.export_c(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     if law == "nmpc":
@@ -66,52 +57,44 @@ def export_c(
     console.print(f"C code of the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
+@dataclass(frozen=True)
+class App:
+    """Options of an app, as `export_app` takes them."""
+
+    height: float | None = option("Height, m, below which the law stays off. Default: what a swing-up needs.")
+    airframe: str | None = option(
+        "Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length."
+    )
+    rate: float | None = option("Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
+    planned: bool = option("Swing the hanging rod up along a plan; the law flies the rest.", "--plan")
+
+
 @click.command("export-app")
 @click.argument("target")
 @click.argument("vehicle")
 @out_option("app")
 @click.option("--law", default="inverted", help=f"Law to export: {LAW_HELP}.")
-@click.option("--height", type=float, help="Height, m, below which the law stays off. Default: what a swing-up needs.")
-@click.option("--airframe", help="Airframe of a Crazyflie, cf2 or cf21bl; default the one with the nearest arm length.")
-@click.option("--rate", type=float, help="Control rate, Hz. Default: 500 for crazyflie, 400 for px4.")
+@options_of(App, "own")
 @sensors_option
-@click.option("--plan", "planned", is_flag=True, help="Swing the hanging rod up along a plan; the law flies the rest.")
-def export_app(
-    target: str,
-    vehicle: str,
-    out: Path,
-    law: str,
-    height: float | None,
-    airframe: str | None,
-    rate: float | None,
-    sensors: str,
-    planned: bool,
-) -> None:
+def export_app(target: str, vehicle: str, out: Path, law: str, own: App, sensors: str) -> None:
     """Write an app for the firmware of TARGET, crazyflie or px4, that flies VEHICLE; see docs/export."""
-    from flypend import model
-    from flypend.export import export_app as write
-    from flypend.files.staging import check_writable
     from flypend.plants.sensors import sensors_called
 
-    check_writable(out)
     read = sensors_called(sensors_asked(sensors), "--sensors")
-    machine, chosen = model.vehicle(vehicle), _symbolic(law)
-    flown = write(
-        target, chosen, machine, out, airframe=airframe, rate=rate, height=height, sensors=read, planned=planned
-    )
+    machine, chosen = fp.vehicle(vehicle), _symbolic(law)
+    flown = fp.export_app(target, chosen, machine, out, sensors=read, **vars(own))
     if flown != machine:
         (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")
     console.print(f"The app with the {chosen.name} law is in {bold(out)}; start with README.md.")
 
 
-def _symbolic(name: str) -> Law:
+def _symbolic(name: str) -> fp.Law:
     """The law called `name`. Raises InputError for one that is not written in symbols."""
-    from flypend.laws import Law
     from flypend.studies import law_named
 
     chosen = law_named(name)
-    if not isinstance(chosen, Law):
+    if not isinstance(chosen, fp.Law):
         because = f" ({chosen.because})" if chosen.because else ""
         raise InputError("--law", "a law written in symbols", f"{name}, which is not{because}")
     return chosen

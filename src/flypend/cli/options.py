@@ -10,11 +10,38 @@ from typing import Any, TypeVar
 
 import click
 
-from flypend.errors import InputError
+from flypend.errors import InputError, one_of
+from flypend.files.staging import check_writable
+from flypend.files.whole import FIGURES, check_file
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 LAW_HELP = "a name that flypend laws lists, file.py:function, module:function, or a policy (.npz, .onnx)"
 
+
+class Output(click.Path):
+    """A file that is to be written, with one of these `endings`; without endings a folder, made if there is none."""
+
+    def __init__(self, *endings: str) -> None:
+        super().__init__(path_type=Path)
+        self.endings, self.name = endings, "file" if endings else "dir"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        """Return the path. Raises InputError unless it can be written, and no other option writes that file."""
+        assert param is not None
+        assert ctx is not None
+        path = Path(value)
+        if not self.endings:
+            check_writable(path)
+            return path
+        check_file(path, self.endings, name_of(param))
+        for other in ctx.command.params:
+            taken = ctx.params.get(str(other.name)) if isinstance(other.type, Output) else None
+            if taken is not None and taken.absolute() == path.absolute():
+                raise InputError(name_of(param), f"another file than {name_of(other)}", str(path))
+        return path
+
+
+FIGURE = Output(*FIGURES)
 path: Any = click.Path(path_type=Path)
 laws_option = click.option("--law", multiple=True, help=f"Law to fly: {LAW_HELP}; repeatable.")
 vehicle_option = click.option("--vehicle", default="hehn2011", help="Vehicle name or TOML file.")
@@ -29,15 +56,20 @@ style_option = click.option(
 )
 
 
-def out_option(default: str, describe: str = "Output folder.") -> Callable[[_Command], _Command]:
-    """Return the option --out with this default: a folder, or a file if the default has an ending."""
-    kind = "FILE" if Path(default).suffix else "DIR"
-    return click.option("--out", "-o", type=path, default=default, metavar=kind, help=describe)
+def out_option(default: str, describe: str = "Output folder.", *endings: str) -> Callable[[_Command], _Command]:
+    """Return the option --out with this default: a file with one of the `endings`, or without them a folder."""
+    return click.option("--out", "-o", type=Output(*endings), default=default, help=describe)
 
 
-def option(name: str, **settings: Any) -> Any:
-    """Return a field of a dataclass that is the option `name` of a command, with the `settings` of `click.option`."""
-    return field(metadata={"name": name, "settings": settings})
+def option(describe: str, name: str = "", **settings: Any) -> Any:
+    """Return a field of a dataclass that is an option of a command, with the `settings` of `click.option`.
+
+    It is called as the field unless it has a `name` of its own. A bool is a flag.
+    """
+    return field(metadata={"name": name, "settings": {"help": describe, **settings}})
+
+
+KINDS: dict[Any, dict[str, Any]] = {"bool": {"is_flag": True}, "float | None": {"type": float}}  # by annotation
 
 
 def options_of(record: type, name: str) -> Callable[[_Command], Any]:
@@ -51,7 +83,8 @@ def options_of(record: type, name: str) -> Callable[[_Command], Any]:
             return function(**given, **{name: record(**own)})
 
         for each in reversed(options):
-            click.option(each.metadata["name"], each.name, **each.metadata["settings"])(called)
+            called_as = each.metadata["name"] or f"--{each.name}"
+            click.option(called_as, each.name, **KINDS.get(each.type, {}), **each.metadata["settings"])(called)
         return called
 
     return decorate
@@ -63,8 +96,12 @@ def refuse_idle(*names: str, why: str) -> None:
     for parameter in context.command.params:
         given = context.get_parameter_source(str(parameter.name)) is click.core.ParameterSource.COMMANDLINE
         if parameter.name in names and given:
-            option = max((*parameter.opts, *parameter.secondary_opts), key=len)
-            raise InputError(option, f"nothing {why}", repr(context.params[parameter.name]))
+            raise InputError(name_of(parameter), f"nothing {why}", repr(context.params[parameter.name]))
+
+
+def name_of(parameter: click.Parameter) -> str:
+    """Return what messages call a `parameter`: the longest of its names."""
+    return max((*parameter.opts, *parameter.secondary_opts), key=len)
 
 
 def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
@@ -81,13 +118,12 @@ def sensors_asked(sensors: str) -> Any:
 
     Raises InputError.
     """
-    from flypend import errors
     from flypend.files.toml import read_toml
     from flypend.plants import SUITES
     from flypend.plants.sensors import sensors_called
 
     if Path(sensors).suffix != ".toml":
-        return errors.one_of("--sensors", sensors, SUITES)
+        return one_of("--sensors", sensors, SUITES)
     table = read_toml(sensors)
     return "perfect" if sensors_called(table, "--sensors") is None else table
 
@@ -97,13 +133,12 @@ def plant_asked(plant: str, sensors: str, floor: float | None = None) -> Any:
 
     Raises InputError.
     """
-    from flypend import errors
     from flypend.plants import PRESETS
 
-    errors.one_of("--plant", plant, PRESETS)
+    one_of("--plant", plant, PRESETS)
     measured = sensors_asked(sensors)
     perfect = measured == "perfect"
     if plant == "ideal" and not perfect:
-        raise errors.InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
+        raise InputError("--sensors", "perfect, in the ideal plant", repr(sensors))
     given = ({} if perfect else {"sensors": measured}) | ({} if floor is None else {"floor": floor})
     return {"base": plant, **given} if given else plant

@@ -6,23 +6,21 @@ import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from flypend.cli.options import option, options_of, out_option, path, refuse_idle, vehicle_option
+import flypend as fp
+from flypend.cli.options import FIGURE, Output, option, options_of, out_option, refuse_idle, vehicle_option
 from flypend.cli.terminal import bold, console, counter
+from flypend.errors import array, number, one_of
+from flypend.files.whole import save_figure
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
-
-    from flypend.flight.trajectory import Trajectory
-    from flypend.model import State, Vehicle
-    from flypend.planning.constraints import Constraints
-    from flypend.planning.result import Plan
 
 CELLS = 10  # of the map, along each side of a hemisphere
 
@@ -32,118 +30,89 @@ class Kept:
     """How a plan ends and what it keeps: `Constraints`, with a cube about the target for a box, angles in degrees."""
 
     end: str = option(
-        "--end",
-        default="inverted",
-        help="How it ends: in hover with the rod inverted or hanging, or at the start of a run file.",
+        "How it ends: in hover with the rod inverted or hanging, or at the start of a run file.", default="inverted"
     )
-    floor: float | None = option("--floor", type=float, metavar="M", help="Minimum height of pivot and rod.")
-    ceiling: float | None = option("--ceiling", type=float, metavar="M", help="Maximum height of pivot and rod.")
-    cube: float | None = option(
-        "--cube", type=float, metavar="M", help="Side of a cube about the target, in which pivot and rod stay."
-    )
-    speed: float | None = option("--speed", type=float, metavar="M/S", help="Maximum speed of the pivot.")
-    lean: float | None = option(
-        "--lean",
-        type=float,
-        metavar="DEG",
-        help="Maximum angle between rod and vertical; 90 keeps it above the horizon.",
-    )
+    floor: float | None = option("Minimum height of pivot and rod.", metavar="M")
+    ceiling: float | None = option("Maximum height of pivot and rod.", metavar="M")
+    cube: float | None = option("Side of a cube about the target, in which pivot and rod stay.", metavar="M")
+    speed: float | None = option("Maximum speed of the pivot.", metavar="M/S")
+    lean: float | None = option("Maximum angle between rod and vertical; 90 keeps it above the horizon.", metavar="DEG")
     window: tuple[tuple[float, ...], ...] = option(
-        "--window",
+        "Opening to fly through, in a wall normal to the x axis; repeatable.",
         type=float,
         nargs=5,
         multiple=True,
         metavar="X Y Z WIDTH HEIGHT",
-        help="Opening to fly through, in a wall normal to the x axis; repeatable.",
     )
     waypoints: tuple[tuple[float, ...], ...] = option(
+        "Point that the pivot passes; repeatable, in order.",
         "--waypoint",
         type=float,
         nargs=3,
         multiple=True,
         metavar="X Y Z",
-        help="Point that the pivot passes; repeatable, in order.",
     )
-    path: str | None = option(
-        "--path", metavar="FILE.py:FUNCTION", help="Path of the pivot in time, to fly in the --duration."
-    )
-    clearance: float | None = option(
-        "--clearance", type=float, metavar="M", help="Distance that rod and machine keep from mount and frames."
-    )
+    path: str | None = option("Path of the pivot in time, to fly in the --duration.", metavar="FILE.py:FUNCTION")
+    clearance: float | None = option("Distance that rod and machine keep from mount and frames.", metavar="M")
     keep: str | None = option(
-        "--keep", metavar="EXPR", help='What must always hold, such as "norm(x) < 1, y[2] > 0"; or file.py:function.'
+        'What must always hold, such as "norm(x) < 1, y[2] > 0"; or file.py:function.', metavar="EXPR"
     )
     cost: str | None = option(
-        "--cost",
-        metavar="EXPR",
-        help='Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.',
+        'Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.', metavar="EXPR"
     )
 
-    def state(self, target: ArrayLike) -> State | None:
+    def state(self, target: ArrayLike) -> fp.State | None:
         """Return the state in which it ends at the `target`, m; None for the end of a path."""
-        from flypend import errors
-        from flypend.model import State
-
         if self.path is not None:
             refuse_idle("target", "end", why="beside --path, at whose end it hovers")
             return None
         if self.end.endswith(".toml"):
             refuse_idle("target", why=f"beside --end {self.end}, which says where")
-            return _from(self.end, "").start
-        up = errors.one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
-        return State(x=errors.array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
+            return _from(self.end, "")[1]
+        up = one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
+        return fp.State(x=array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
 
-    def about(self, target: ArrayLike, given: Mapping[str, Any]) -> Constraints:
+    def about(self, target: ArrayLike, given: Mapping[str, Any]) -> fp.Constraints:
         """Return the constraints of a flight to the `target`, m: those `given`, but for what the options say."""
         import numpy as np
 
-        from flypend import errors
-        from flypend.planning.constraints import Constraints
-        from flypend.planning.window import Window
         from flypend.settings.laws import own_from
 
-        half = None if self.cube is None else errors.number("--cube", self.cube, above=0, unit="m") / 2
+        half = None if self.cube is None else number("--cube", self.cube, above=0, unit="m") / 2
         own = {
             "floor": self.floor, "ceiling": self.ceiling, "speed": self.speed, "clearance": self.clearance,
             "box": None if half is None else np.add(((-half,) * 3, (half,) * 3), target),
             "lean": None if self.lean is None else np.radians(self.lean),
-            "window": [Window(place[:3], *place[3:]) for place in self.window] or None,
+            "window": [fp.Window(place[:3], *place[3:]) for place in self.window] or None,
             "waypoints": self.waypoints or None,
             "path": None if self.path is None else own_from(self.path, None, "path", "--path"),
             "keep": None if self.keep is None else own_from(self.keep, None, "keep", "--keep"),
             "cost": None if self.cost is None else own_from(self.cost, None, "cost", "--cost"),
         }  # fmt: skip
-        return Constraints(**{**given, **{name: value for name, value in own.items() if value is not None}})
+        return fp.Constraints(**{**given, **{name: value for name, value in own.items() if value is not None}})
 
 
 @dataclass(frozen=True)
 class Outputs:
     """What is made of a plan beside its file."""
 
-    fly: str | None = option("--fly", metavar="PLANT", help="Also fly the plan with feedback: rotors or mujoco.")
-    in_c: Path | None = option(
-        "--c", type=path, metavar="FOLDER", help="Also write the plan with its gains as a table in C."
-    )
-    csv: Path | None = option("--csv", type=path, metavar="FILE", help="Also write the plan as a table (.csv).")
-    figure: Path | None = option(
-        "--figure", type=path, metavar="FILE", help="Also draw the plan; with --fly, beside its flight."
-    )
-    front: Path | None = option("--front", type=path, metavar="FILE", help="Also draw excursion against allowed time.")
+    fly: str | None = option("Also fly the plan with feedback: rotors or mujoco.", metavar="PLANT")
+    in_c: Path | None = option("Also write the plan with its gains as a table in C.", "--c", type=Output())
+    csv: Path | None = option("Also write the plan as a table (.csv).", type=Output(".csv"))
+    figure: Path | None = option("Also draw the plan; with --fly, beside its flight.", type=FIGURE)
+    front: Path | None = option("Also draw excursion against allowed time.", type=FIGURE)
     sphere: Path | None = option(
+        "Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
         "--map",
-        type=path,
-        metavar="FILE",
-        help="Also draw how far plans, nmpc and the inverted law stray from rest, over all directions of the rod.",
+        type=FIGURE,
     )
-    html: Path | None = option(
-        "--html", type=path, metavar="FILE", help="Also write the replay; with --fly, the plan is the ghost."
-    )
+    html: Path | None = option("Also write the replay; with --fly, the plan is the ghost.", type=Output(".html"))
 
 
 @click.command()
 @click.argument("what", required=False)
 @vehicle_option
-@out_option("plan.nc", "Output file (.nc): the plan.")
+@out_option("plan.nc", "Output file (.nc): the plan.", ".nc")
 @click.option("--objective", help="What to minimise: excursion (default), effort, time, or cost (--cost alone).")
 @click.option("--duration", type=float, help="Time until hover, s; default as long as it takes.")
 @click.option("--target", type=float, nargs=3, metavar="X Y Z", help="Where the pivot hovers; default the origin.")
@@ -164,22 +133,18 @@ def plan(
     The run file also gives the vehicle and, if its law is "plan", objective, target and constraints, which options
     override. Any other law, and the duration, are ignored. Figures are .png, .pdf or .svg.
     """
-    from flypend.files.whole import FIGURES
-    from flypend.flight.metrics import metrics
-    from flypend.flight.simulate import simulate
-    from flypend.planning.planner import plan as planned
-    from flypend.planning.tracking import track
+    from flypend.plants import plant
 
-    figures = {"--figure": also.figure, "--front": also.front, "--map": also.sphere}
-    pages = {"--out": (out, (".nc",)), "--html": (also.html, (".html",)), "--csv": (also.csv, (".csv",))}
-    _check_files(pages | {option: (file, FIGURES) for option, file in figures.items()})
-    _check_options(what, also.fly, also.in_c)
+    if what is not None:
+        refuse_idle("vehicle", why=f"beside {what}, which names its own")
+    if also.fly is not None:
+        plant(one_of("--fly", also.fly, ("rotors", "mujoco")))
     machine, start, asked = _from(what, vehicle)
     given = {"objective": "excursion", "target": (0.0, 0.0, 0.0), **asked}
     given |= {name: value for name, value in {"objective": objective, "target": target}.items() if value is not None}
     aim, place = given.pop("objective"), given.pop("target")
     kept = keep.about(place, given)
-    found = planned(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
+    found = fp.plan(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
     console.print(f"{machine.name}: {found.told}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
@@ -189,33 +154,27 @@ def plan(
     if not found:
         sys.exit(1)
     if also.in_c is not None:
-        from flypend.export import export_plan
-
-        export_plan(found, also.in_c)
+        fp.export_plan(found, also.in_c)
         console.print(f"The table in C is in {bold(also.in_c)}.")
     shown, flown = found.trajectory, None
     if also.fly is not None:
-        shown = flown = simulate(machine, track(found), start, found.duration + 2, plant=also.fly)
-        judged = metrics(flown)
+        shown = flown = fp.simulate(machine, fp.track(found), start, found.duration + 2, plant=also.fly)
+        judged = fp.metrics(flown)
         verdict = "stands" if judged.success else f"does not stand ({judged.cause})"
         console.print(f"Flown on {also.fly}: {verdict}, excursion {judged.excursion:.3f} m.")
     if also.html is not None:
         shown.to_html(also.html, ghost=[] if flown is None else [found.trajectory], windows=found.windows)
         console.print(f"The replay is {bold(also.html)}.")
-    if any(figures.values()):
+    if also.figure or also.front or also.sphere:
         _draw(found, flown, start, kept, also)
 
 
-def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints, also: Outputs) -> None:
+def _draw(found: fp.Plan, flown: fp.Trajectory | None, start: fp.State, kept: fp.Constraints, also: Outputs) -> None:
     """Draw the figures of a plan that was `found` from `start` with the constraints `kept`.
 
     A front shows the inverted law beside the plans, which knows nothing of constraints.
     """
-    from flypend.files.whole import save_figure
-    from flypend.flight.simulate import simulate
-    from flypend.laws import inverted, references
     from flypend.pictures.plans import front_figure, plan_figure, strays_figure
-    from flypend.planning.receding_horizon import nmpc
     from flypend.studies.limit import DURATION, front, strays
 
     def save(figure: Figure, path: Path) -> None:
@@ -229,57 +188,23 @@ def _draw(found: Plan, flown: Trajectory | None, start: State, kept: Constraints
             plans = front(
                 found.vehicle, start, progress=partial(tell, "planning"), target=found.target, constraints=kept
             )
-            law = simulate(found.vehicle, inverted(references.hover(found.target)), start, DURATION)
+            law = fp.simulate(found.vehicle, fp.laws.inverted(fp.laws.references.hover(found.target)), start, DURATION)
             save(front_figure(plans, law), also.front)
         if also.sphere is not None:
-            save(strays_figure(strays(found.vehicle, (inverted(), nmpc()), CELLS, tell=tell)), also.sphere)
+            save(strays_figure(strays(found.vehicle, (fp.laws.inverted(), fp.nmpc()), CELLS, tell=tell)), also.sphere)
 
 
-def _check_options(what: str | None, fly: str | None, in_c: Path | None) -> None:
-    """Raise InputError for a vehicle beside a run file, another plant, or a folder that cannot be written."""
-    from flypend import errors
-    from flypend.files.staging import check_writable
-    from flypend.plants import plant
+def _from(what: str | None, name: str) -> tuple[fp.Vehicle, fp.State, dict[str, Any]]:
+    """Return vehicle and start (e₃ up) of the run file `what`, and the arguments of `plan` if its law is "plan".
 
-    if what is not None:
-        refuse_idle("vehicle", why=f"beside {what}, which names its own")
-    if fly is not None:
-        plant(errors.one_of("--fly", fly, ("rotors", "mujoco")))
-    if in_c is not None:
-        check_writable(in_c)
-
-
-def _check_files(files: dict[str, tuple[Path | None, tuple[str, ...]]]) -> None:
-    """Raise InputError unless all `files`, option → (file, endings), can be written, and none is named twice."""
-    from flypend.errors import InputError
-    from flypend.files.whole import check_file
-
-    taken: dict[Path, str] = {}
-    for named, (file, endings) in files.items():
-        if file is None:
-            continue
-        check_file(file, endings)
-        if (other := taken.setdefault(file.absolute(), named)) != named:
-            raise InputError(named, f"another file than {other}", str(file))
-
-
-class Asked(NamedTuple):
-    """What a run file says of a plan; the start with e₃ up, and the arguments of `plan` if its law is "plan"."""
-
-    vehicle: Vehicle
-    start: State
-    arguments: dict[str, Any]
-
-
-def _from(what: str | None, name: str) -> Asked:
-    """Return what the run file `what` asks for; without one, the vehicle `name` with its rod hanging."""
-    from flypend import model
+    Without a run file, the vehicle is `name`, with its rod hanging.
+    """
     from flypend.settings.laws import plan_from
     from flypend.settings.runfile import run_file
 
     if what is None:
-        return Asked(model.vehicle(name), model.State(y=(0.0, 0.0, -1.0)), {})
+        return fp.vehicle(name), fp.State(y=(0.0, 0.0, -1.0)), {}
     flight, settings = run_file(what)
     law = settings["law"]
     arguments = plan_from(law) if law.get("name") == "plan" else {}
-    return Asked(flight.vehicle, flight.starts.in_frame(flight.law.e3), arguments)
+    return flight.vehicle, flight.starts.in_frame(flight.law.e3), arguments

@@ -10,13 +10,17 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.markup import escape
+from rich.text import Text
 
 from flypend import signals
 from flypend.errors import InputError
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 # Off a terminal, lines are as long as they are: whoever reads a file or a pipe wraps them.
 _free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
@@ -45,8 +49,6 @@ def counter(*, rate: bool = False) -> Iterator[Callable[[str, int, int], None]]:
     if not on.is_terminal:
         yield lines(on)
         return
-    from flypend.cli.bars import progress_bar  # slow to import
-
     with progress_bar(on, rate=rate) as bar:
         task = bar.add_task("starting", total=None)
 
@@ -56,6 +58,28 @@ def counter(*, rate: bool = False) -> Iterator[Callable[[str, int, int], None]]:
             bar.update(task, description=escape(what), completed=done, total=total)
 
         yield tell
+
+
+def progress_bar(on: Console, *, rate: bool = False) -> Progress:
+    """Return an empty progress bar, with the `rate` of runs and the remaining time, or else with the elapsed time."""
+    from rich import progress  # slow to import
+
+    class Told(progress.ProgressColumn):
+        """A column that says of a task what the function `tell` does."""
+
+        def __init__(self, tell: Callable[[progress.Task], str]) -> None:
+            super().__init__()
+            self.tell = tell
+
+        def render(self, task: progress.Task) -> Text:
+            return Text(self.tell(task))
+
+    # In words that cannot be taken for successes.
+    done = Told(lambda task: "" if task.total is None else f"{task.completed:,.0f} of {task.total:,.0f} done")
+    speed = Told(lambda task: "" if task.speed is None else f"{task.speed:,.0f}/s")
+    times = (speed, progress.TimeRemainingColumn()) if rate else (progress.TimeElapsedColumn(),)
+    name = progress.TextColumn("{task.description}")
+    return progress.Progress(name, progress.BarColumn(), done, *times, console=on, transient=True)
 
 
 def lines(on: Console) -> Callable[[str, int, int], None]:
@@ -121,13 +145,6 @@ def resumable() -> Iterator[None]:
 def bold(path: Path) -> str:
     """Return `path` in bold, any markup in its name escaped."""
     return f"[bold]{escape(str(path))}[/bold]"
-
-
-def is_stepped(law: Any) -> bool:
-    """Whether `law` flies step by step in Python, so that only processes can use more than one core."""
-    from flypend.laws import Controller
-
-    return isinstance(law, Controller)
 
 
 def tell_how(law: Any) -> None:

@@ -12,8 +12,7 @@ from PIL import Image, ImageDraw
 from flypend.geometry import E3, Numbers
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
-from flypend.pages.camera import Camera, depth, magnification, project
-from flypend.pages.sketch import BOB_SHARE, reach, sketch
+from flypend.pages.sketch import BOB_SHARE, Camera, depth, magnification, project, reach, sketch
 from flypend.palette import PAGE
 
 PIXELS = 480  # sides of a picture; even, as encoders of videos want them

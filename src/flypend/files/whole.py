@@ -38,9 +38,9 @@ def save_both(figure: Figure, path: Path) -> None:
         figure.set_layout_engine("none")  # laid out once: it takes as long as drawing
 
 
-def check_file(path: str | Path, suffixes: Sequence[str]) -> None:
-    """Raise InputError if `path` has none of `suffixes` or is not writable. Leaves any existing file untouched."""
-    with suppress(_DroppedError), whole_file(path, suffixes):
+def check_file(path: str | Path, suffixes: Sequence[str], field: str = "path") -> None:
+    """Raise InputError, of `field`, unless `path` has one of `suffixes` and is writable. Touches no existing file."""
+    with suppress(_DroppedError), whole_file(path, suffixes, field):
         raise _DroppedError
 
 
@@ -55,14 +55,14 @@ class _DroppedError(Exception):
 
 
 @contextmanager
-def whole_file(path: str | Path, suffixes: Sequence[str]) -> Iterator[Path]:
+def whole_file(path: str | Path, suffixes: Sequence[str], field: str = "path") -> Iterator[Path]:
     """Yield a temporary path beside `path`. If the block succeeds, rename it to `path`; otherwise delete it.
 
-    Raises InputError if `path` has none of `suffixes` or is not writable.
+    Raises InputError if `path`, which messages call `field`, has none of `suffixes` or is not writable.
     """
     path = Path(path)
     if path.suffix.lower() not in suffixes:
-        raise errors.InputError("path", "a file name ending in " + " or ".join(suffixes), str(path))
+        raise errors.InputError(field, "a file name ending in " + " or ".join(suffixes), str(path))
     partial = path.with_name(f".{uuid4().hex}{path.suffix}")
     try:
         if path.is_dir():

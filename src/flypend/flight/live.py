@@ -28,9 +28,18 @@ from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import lyapunov_function
 from flypend.model import State
 from flypend.model.state import SIZE
+from flypend.pages.offers import (
+    Reach,
+    defect_sliders,
+    directions,
+    gain_sliders,
+    plain,
+    plant_sliders,
+    slider,
+    sliders_of,
+    starts,
+)
 from flypend.pages.replay import in_base64
-from flypend.pages.sliders import Reach, defect_sliders, gain_sliders, plant_sliders, slider, sliders_of
-from flypend.pages.starts import directions, plain, starts
 from flypend.plants import AnyPlant, Ideal, Noise, Sampled
 from flypend.plants.defects import NAMES
 from flypend.plants.knobs import LONGEST_DELAY, knob_values

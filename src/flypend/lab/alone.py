@@ -42,7 +42,14 @@ def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *
             raise errors.InputError(f"{name}s", "one at least", "none")
         for one in chosen:
             errors.one_of(name, one, every[f"{name}s"])
-    return _page(every, [_setting(every["first"], *choice) for choice in product(vehicles, laws, PLANTS)], TITLE, tell)
+    settings = [
+        {
+            **every["first"], "vehicle": {"base": vehicle, "mount": "gimbal"}, "law": {"name": law, "gains": {}},
+            "plant": {"base": plant},
+        }
+        for vehicle, law, plant in product(vehicles, laws, PLANTS)
+    ]  # fmt: skip
+    return _page(every, settings, TITLE, tell)
 
 
 def chapters_page() -> str:
@@ -64,13 +71,7 @@ def _page(every: dict[str, Any], settings: Sequence[dict[str, Any]], title: str,
         tell(_kind(setting), number, len(settings))
         engines[_kind(setting)] = _engine(setting_of(setting))
     choices = {**_available(every, settings, engines), **draw_starts()}
-    return replay.document("lab", replay.LIVE_POLICY, {"title": title, "engines": engines, "offer": choices})
-
-
-def _setting(first: dict[str, Any], vehicle: str, law: str, plant: str) -> dict[str, Any]:
-    """Return the setting `first` with another vehicle, law and plant, by name."""
-    machine = {"base": vehicle, "mount": "gimbal"}
-    return {**first, "vehicle": machine, "law": {"name": law, "gains": {}}, "plant": {"base": plant}}
+    return replay.document(replay.LIVE_POLICY, {"title": title, "engines": engines, "offer": choices})
 
 
 def _kind(setting: dict[str, Any]) -> str:

@@ -14,15 +14,13 @@ from flypend.flight.live import engine_facts, live_loop, tunable
 from flypend.flight.verdict import verdict
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
-from flypend.lab.flying import MOST_STEPS, fly
-from flypend.lab.map import region
+from flypend.lab.flying import MOST_STEPS, fly, region
 from flypend.lab.own import NONE, OwnLaws
 from flypend.lab.setting import Setting, setting_of
 from flypend.lab.tuning import Tell, tune_loop
 from flypend.laws import BoundLaw
 from flypend.pages import replay
-from flypend.pages.sliders import sliders_of
-from flypend.pages.starts import plain
+from flypend.pages.offers import plain, sliders_of
 
 log = logging.getLogger(__name__)
 Replies = Iterator[dict[str, Any]]

@@ -12,8 +12,7 @@ from flypend.laws import law_names
 from flypend.model import State
 from flypend.model.table import vehicle_names
 from flypend.pages import replay
-from flypend.pages.sliders import Reach, defect_sliders, gain_sliders, plant_sliders, slider
-from flypend.pages.starts import plain, starts
+from flypend.pages.offers import Reach, defect_sliders, gain_sliders, plain, plant_sliders, slider, starts
 from flypend.paper import experiment, experiment_names
 from flypend.plants import Sampled
 
@@ -171,4 +170,4 @@ def _step(
 
 def page(own: OwnLaws | None = None) -> str:
     """Return the page as HTML, offering the custom laws `own`."""
-    return replay.document("lab", "", {"title": "flypend laboratory", "offer": offer(own)})
+    return replay.document("", {"title": "flypend laboratory", "offer": offer(own)})

@@ -8,8 +8,8 @@ from typing import Any
 
 from flypend.files.toml import toml_text
 from flypend.lab.setting import Setting
-from flypend.model import State, Vehicle, vehicle
-from flypend.model.state import SHAPES
+from flypend.model import vehicle
+from flypend.pages.offers import plain
 from flypend.plants import ROTORS, AnyPlant, Ideal, Sampled
 from flypend.plants.defects import NAMES, names_drawn
 from flypend.plants.sensors import SUITES, Sensors
@@ -20,55 +20,46 @@ POKED = "# The pokes of the laboratory are left out.\n"
 
 def toml(setting: Setting) -> str:
     """Return the run file of `setting`, without its pokes."""
-    flight = setting.flight
-    base, changed = _vehicle(flight.vehicle)
-    written = {
-        "duration": flight.duration,
-        "plant": _plant(flight.plant),
-        "vehicle": {"base": base, **changed} if changed else base,
-        "law": _law(setting),
-        "start": _start(flight.starts),
-    }
-    return (POKED if setting.pokes else "") + toml_text(written)
+    return (POKED if setting.pokes else "") + toml_text(_table(setting))
 
 
 def python(setting: Setting) -> str:
     """Return Python code that computes the trajectory `run` of `setting`, without its pokes."""
-    flight = setting.flight
-    base, changed = _vehicle(flight.vehicle)
-    machine = f"fp.vehicle({base!r})" + (f".replace({_arguments(changed)})" if changed else "")
-    start = ",\n".join(f"    {name}={value!r}" for name, value in _start(flight.starts).items())
+    table, law = _table(setting), setting.law
+    changed, plant = table["vehicle"], table["plant"]
+    machine = f"fp.vehicle({setting.flight.vehicle.name!r})"
+    machine += f".replace({_arguments(changed)})" if isinstance(changed, dict) else ""
+    called = f"law_from({table['law']!r})" if setting.where else f"fp.laws.{law.name}({_arguments(law.given)})"
+    world = f"fp.Plant({_arguments(plant)})" if isinstance(plant, dict) else repr(plant)
+    start = ",\n".join(f"    {name}={value!r}" for name, value in table["start"].items())
     return (
         f"import flypend as fp\n"
         f"{OWN if setting.where else ''}\n"
         f"{POKED if setting.pokes else ''}vehicle = {machine}\n"
-        f"law = {_law_call(setting)}\n"
+        f"law = {called}\n"
         f"start = fp.State(\n{start},\n)\n"
-        f"run = fp.simulate(vehicle, law, start, duration={flight.duration!r}, plant={_plant_call(flight.plant)})\n"
+        f"run = fp.simulate(vehicle, law, start, duration={table['duration']!r}, plant={world})\n"
         f"print(run.outcome)\n"
     )
 
 
-def _law(setting: Setting) -> dict[str, Any]:
-    """The law, as in a run file."""
-    law = setting.law
+def _table(setting: Setting) -> dict[str, Any]:
+    """The content of a run file; vehicle and plant are names, or tables of the fields that differ from `base`."""
+    flight, law, base = setting.flight, setting.law, setting.flight.vehicle.name
+    shipped = vehicle(base).to_dict()
+    changed = {name: value for name, value in flight.vehicle.to_dict().items() if value != shipped.get(name)}
     said = {"function": setting.where} if setting.where else {"name": law.name}
-    return said | ({"gains": dict(law.given)} if law.given else {})
-
-
-def _law_call(setting: Setting) -> str:
-    law = setting.law
-    return f"law_from({_law(setting)!r})" if setting.where else f"fp.laws.{law.name}({_arguments(law.given)})"
-
-
-def _vehicle(machine: Vehicle) -> tuple[str, dict[str, Any]]:
-    """The vehicle's name, and the fields that differ from the shipped vehicle of that name."""
-    own, named = machine.to_dict(), vehicle(machine.name).to_dict()
-    return machine.name, {name: value for name, value in own.items() if value != named.get(name)}
+    return {
+        "duration": flight.duration,
+        "plant": _plant(flight.plant),
+        "vehicle": {"base": base, **changed} if changed else base,
+        "law": said | ({"gains": dict(law.given)} if law.given else {}),
+        "start": plain(flight.starts),
+    }
 
 
 def _plant(plant: AnyPlant) -> str | dict[str, Any]:
-    """The plant, as in a run file: "ideal", "rotors", or a table of the fields that differ from "rotors"."""
+    """The plant, as in a run file: "ideal", "rotors", or a table on top of "rotors"."""
     if isinstance(plant, Ideal):
         return "ideal"
     changed: dict[str, Any] = {}
@@ -76,7 +67,7 @@ def _plant(plant: AnyPlant) -> str | dict[str, Any]:
         value = getattr(plant, entry.name)
         if value != getattr(ROTORS, entry.name):
             if entry.name in ("noise", "wind"):
-                value = _record(value)
+                value = dict(vars(value))
             changed[entry.name] = _suite(value) if entry.name == "sensors" else value
     return {"base": "rotors", **changed} if changed else "rotors"
 
@@ -95,27 +86,11 @@ def _suite(sensors: Sensors) -> str | dict[str, Any]:
     return {"base": base, "adjustable": adjustable, **changed}
 
 
-def _record(record: Any) -> dict[str, Any]:
-    """The fields of a `Noise` or a `Wind`, tuples as lists."""
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(record).items()}
-
-
-def _plant_call(plant: AnyPlant) -> str:
-    """The plant as a Python expression."""
-    table = _plant(plant)
-    if isinstance(table, str):
-        return repr(table)
-    parts = []
-    for name, value in table.items():
-        kind = {"noise": "fp.Noise", "wind": "fp.Wind"}.get(name)
-        if name != "base":
-            parts.append(f"{name}={kind}({_arguments(value)})" if kind else f"{name}={value!r}")
-    return f"fp.Plant({', '.join(parts)})"
-
-
-def _start(state: State) -> dict[str, Any]:
-    return {name: getattr(state, name).tolist() for name in SHAPES}
-
-
 def _arguments(values: Mapping[str, Any]) -> str:
-    return ", ".join(f"{name}={value!r}" for name, value in values.items())
+    """The entries of a table, but for its base, as the arguments of a call in Python."""
+    return ", ".join(f"{name}={_code(name, value)}" for name, value in values.items() if name != "base")
+
+
+def _code(name: str, value: Any) -> str:
+    kind = {"noise": "fp.Noise", "wind": "fp.Wind"}.get(name)
+    return f"{kind}({_arguments(value)})" if kind else repr(value)

@@ -1,17 +1,21 @@
-"""The flight of a setting: through a sampled plant in pieces, between which pokes strike; else in parts.
+"""The flight of a setting, and those of its map: the region of attraction over initial directions of the rod.
 
-Each poke ends one part, and the state it leaves starts the next: all that there is to the ideal plant. A law that is a
-Python function begins its flight computer anew.
+Through a sampled plant a setting flies in pieces, between which pokes strike; else in parts. Each poke ends one part,
+and the state it leaves starts the next: all that there is to the ideal plant. A law that is a Python function begins
+its flight computer anew.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import time
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from flypend.flight.kernels import IdealKernel, SampledKernel
+from flypend.flight.ensemble import fly_many
+from flypend.flight.kernels import IdealKernel
 from flypend.flight.kernels.launch import Solution, sampled_samples
 from flypend.flight.kernels.pieces import PiecesKernel
 from flypend.flight.live import PERIOD
@@ -20,30 +24,20 @@ from flypend.flight.request import Flight
 from flypend.flight.sampled import Samples, fly_stepwise, nearest_ticks, number_of_ticks
 from flypend.flight.simulate import record_run
 from flypend.flight.trajectory import Trajectory
-from flypend.lab.setting import Poke, Setting, in_frame
+from flypend.lab.setting import Poke, Setting
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tune_loop, values
 from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
-from flypend.model.state import SIZE, E3Direction, convert_packed, split
+from flypend.model.state import SHAPES, SIZE, E3Direction, convert_packed, split
+from flypend.pages.offers import directions
 from flypend.plants import Sampled
 
 STILL = Wrench(0.0, np.zeros(3))
 MOST_STEPS = 20_000  # of the ideal plant, over all parts of a flight; usual gains need less than 1,000 for 30 s
 SPENT = f"the laboratory stops a flight after {MOST_STEPS:,} integration steps; flypend run does not"
-
-
-@dataclass(frozen=True)
-class Part:
-    """Samples between two pokes: time since the start of the part, packed states, rotor forces, wrench, outcome.
-
-    `steps` are the integration steps in the ideal plant.
-    """
-
-    t: Any
-    packed: Any
-    rotors: Any
-    wrench: Any
-    outcome: Outcome
-    steps: int = 0
+# Of a map: its flights, how many of them the first and the largest chunk have.
+RUNS = {"ideal": 3000, "sampled": 1200, "stepped": 96}
+FIRST, MOST = {"ideal": 16, "sampled": 16, "stepped": 2}, {"ideal": 256, "sampled": 64, "stepped": 8}
+CHUNK_TIME = 0.1  # s of processor time that a chunk should take, to be seen as it comes
 
 
 def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
@@ -54,28 +48,67 @@ def fly(setting: Setting, tell: Tell = lambda: None) -> Trajectory:
     """
     flight = setting.flight
     machine, gains = tune_loop(setting, tell), values(setting)
-    if setting.pokes and isinstance(machine, Tuned) and isinstance(machine.kernel, SampledKernel):
-        return _trajectory(
-            setting, machine, gains, [_fly_through_pokes(setting, machine, in_pieces(machine, tell), gains)]
-        )
-    begin, state, rotors, number = 0.0, flight.starts, None, 0
-    parts: list[Part] = []
-    for poke in (*setting.pokes, None):
-        while_ = flight.duration if poke is None else _struck_at(poke, flight) - begin
-        left = MOST_STEPS - sum(part.steps for part in parts)
-        request = flight.replace(tolerances=replace(flight.tolerances, max_steps=max(left, 1)))
-        part = _after(machine, gains, request, state, rotors, while_, number)
-        parts.append(_move(part, begin, first=not parts))
-        if poke is None or part.outcome.status != "completed":
-            break
-        end = State(**split(part.packed[-1]))
-        state = poke_state(end, flight.vehicle, machine.law.e3, poke)
-        begin = begin + float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
-        rotors, number = part.rotors[-1], number + 1
+    if isinstance(machine, Stepped) or isinstance(machine.kernel, IdealKernel):
+        parts = list(_fly_parts(setting, machine, gains))
+    elif setting.pokes:
+        parts = [_fly_through_pokes(setting, machine, in_pieces(machine, tell), gains)]
+    else:
+        lasting = max(flight.duration, 1 / machine.kernel.loop.sampled.rate)
+        parts = [sampled_samples(machine.kernel, flight.replace(duration=lasting), gains)]
     return _trajectory(setting, machine, gains, parts)
 
 
-def _fly_through_pokes(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any) -> Part:
+def _fly_parts(setting: Setting, machine: Tuned | Stepped, gains: Any) -> Iterator[Samples]:
+    """Fly from poke to poke, each part from the state that the blow leaves, and yield the parts in flight time."""
+    flight, e3 = setting.flight, machine.law.e3
+    begin, state, rotors, left = 0.0, flight.starts, None, MOST_STEPS
+    for number, poke in enumerate((*setting.pokes, None)):
+        lasting = flight.duration if poke is None else _struck_at(poke, flight) - begin
+        if isinstance(machine, Stepped):
+            noise = (flight.seed or 0) + number
+            part = _fly_stepped(machine, flight.replace(starts=state, seed=noise), lasting, rotors)
+        else:
+            part, steps = _fly_ideal(machine, gains, flight.replace(starts=state), lasting, left)
+            left -= steps
+        keep = slice(min(number, 1), None)  # the blow has changed the first sample of a later part
+        outcome = replace(part.outcome, time=begin + part.outcome.time)
+        yield Samples(begin + part.t[keep], part.packed[keep], part.rotors[keep], outcome)
+        if poke is None or outcome.status != "completed":
+            return
+        state = poke_state(State(**split(part.packed[-1])), flight.vehicle, "up", poke).in_frame(e3)
+        begin = begin + float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
+        rotors = part.rotors[-1]
+
+
+def _fly_stepped(machine: Stepped, flight: Flight, lasting: float, rotors: Any) -> Samples:
+    """Fly one part of a flight in Python, from the rotor forces `rotors` (N): `lasting` s, but one tick at least."""
+    assert isinstance(flight.plant, Sampled)
+    rate = flight.plant.rate
+    part = flight.replace(law=machine.law, duration=max(lasting, 1 / rate))
+    return fly_stepwise(part, rotors).at(part.moments * rate)
+
+
+def _fly_ideal(machine: Tuned, gains: Any, flight: Flight, lasting: float, left: int) -> tuple[Samples, int]:
+    """Fly one part of a flight in the ideal plant: `lasting` s, in at most `left` steps. Return how many it took."""
+    if lasting == 0:
+        t, packed, outcome, steps = np.zeros(1), flight.starts.packed()[None], Outcome("completed", 0.0), 0
+    else:
+        assert isinstance(machine.kernel, IdealKernel)
+        part = flight.replace(duration=lasting, tolerances=replace(flight.tolerances, max_steps=max(left, 1)))
+        solution = Solution(machine.kernel, part, gains)
+        outcome, t, steps = solution.outcome, part.grid, len(solution.knots) - 1
+        if outcome.reason.endswith(NOT_ENOUGH):
+            outcome = replace(outcome, reason=SPENT)
+        if outcome.status != "completed":
+            t = np.append(t[t < outcome.time], outcome.time)
+        packed = solution(t)
+    columns = np.broadcast_to(gains[:, None], (len(gains), len(t)))
+    wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
+    rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
+    return Samples(t, convert_packed(packed, machine.law.e3), rotors, outcome), steps
+
+
+def _fly_through_pokes(setting: Setting, machine: Tuned, pieces: PiecesKernel, gains: Any) -> Samples:
     """Fly a sampled plant through all pokes: board, noise and commands in transit go on as if nothing had happened."""
     flight, plant = setting.flight, machine.kernel.loop.sampled
     ticks = [_tick(poke, 1 / plant.rate) for poke in setting.pokes]
@@ -93,8 +126,7 @@ def _fly_through_pokes(setting: Setting, machine: Tuned, pieces: PiecesKernel, g
     whole = flight.replace(duration=last / plant.rate)
     kept = nearest_ticks(whole.moments, plant, whole.duration)
     kept = np.append(kept[kept < end], end)
-    samples = Samples(kept / plant.rate, every[kept, :SIZE], every[kept, SIZE:], outcome)
-    return _part_from(samples, flight, plant)
+    return Samples(kept / plant.rate, every[kept, :SIZE], every[kept, SIZE:], outcome)
 
 
 def _impulses(poke: Poke, vehicle: Vehicle) -> Any:
@@ -119,74 +151,22 @@ def poke_state(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> S
     The accelerations are affine in the external force, so the jump is the acceleration with the force, minus that
     without it, times one second.
     """
-    mass = vehicle.bob_mass if poke.on == "bob" else vehicle.mass
-    blow = Disturbance(**{f"force_on_{poke.on}": mass * in_frame(poke.velocity, e3)})
-    hit, free = disturbed_motion(state, STILL, vehicle, e3, blow), disturbed_motion(state, STILL, vehicle, e3)
-    return State(
-        x=state.x, x_dot=state.x_dot + hit.x_ddot - free.x_ddot, R=state.R, omega=state.omega, y=state.y,
-        y_dot=state.y_dot + hit.y_ddot - free.y_ddot,
-    )  # fmt: skip
+    mass, up = vehicle.bob_mass if poke.on == "bob" else vehicle.mass, state.in_frame(e3)
+    blow = Disturbance(**{f"force_on_{poke.on}": mass * poke.velocity})
+    hit, free = disturbed_motion(up, STILL, vehicle, "up", blow), disturbed_motion(up, STILL, vehicle, "up")
+    jumps = {"x_dot": up.x_dot + hit.x_ddot - free.x_ddot, "y_dot": up.y_dot + hit.y_ddot - free.y_ddot}
+    return replace(up, **jumps).in_frame(e3)
 
 
-def _after(
-    machine: Tuned | Stepped, gains: Any, flight: Flight, state: State, rotors: Any, duration: float, number: int
-) -> Part:
-    """Fly part `number`: from `state` and the rotor forces `rotors` (N), for `duration` s, with its own noise."""
-    if isinstance(flight.plant, Sampled):
-        duration = max(duration, 1 / flight.plant.rate)
-    elif duration == 0 and isinstance(machine, Tuned):
-        return _part_of(machine, gains, np.zeros(1), state.packed()[None], Outcome("completed", 0.0))
-    part = flight.replace(starts=state, duration=duration, seed=(flight.seed or 0) + number)
-    if isinstance(machine, Stepped):
-        assert isinstance(part.plant, Sampled)
-        stepped = fly_stepwise(part.replace(law=machine.law), rotors).at(part.moments * part.plant.rate)
-        return _part_from(stepped, part, part.plant)
-    if isinstance(machine.kernel, SampledKernel):
-        samples = sampled_samples(machine.kernel, part, gains, rotors)
-        return _part_from(samples, part, machine.kernel.loop.sampled)
-    return _ideal_part(machine, machine.kernel, gains, part)
-
-
-def _ideal_part(machine: Tuned, kernel: IdealKernel, gains: Any, flight: Flight) -> Part:
-    """Fly one part of a flight in the ideal plant."""
-    solution = Solution(kernel, flight, gains)
-    outcome, t = solution.outcome, flight.grid
-    if outcome.reason.endswith(NOT_ENOUGH):
-        outcome = replace(outcome, reason=SPENT)
-    if outcome.status != "completed":
-        t = np.append(t[t < outcome.time], outcome.time)
-    return replace(_part_of(machine, gains, t, solution(t), outcome), steps=len(solution.knots) - 1)
-
-
-def _part_of(machine: Tuned, gains: Any, t: Any, packed: Any, outcome: Outcome) -> Part:
-    """Return the part with states `packed` (k, 24) at `t` (k,), s, and the wrenches that the law gave there."""
-    columns = np.broadcast_to(gains[:, None], (len(gains), len(t)))
-    wrench = np.array(machine.wrench(t[None], packed.T, columns)).T
-    rotors = wrench @ machine.vehicle.unmixing(machine.law.e3).T
-    return Part(t, packed, rotors, wrench, outcome)
-
-
-def _part_from(samples: Samples, flight: Flight, plant: Sampled) -> Part:
-    e3, true = flight.law.e3, plant.true_vehicle(flight.vehicle)
-    packed = convert_packed(samples.packed, e3)
-    return Part(samples.t, packed, samples.rotors, samples.rotors @ true.mixing(e3).T, samples.outcome)
-
-
-def _move(part: Part, begin: float, *, first: bool) -> Part:
-    """Shift `part` to flight time; unless it is the `first`, without its first sample, which the blow has changed."""
-    keep = slice(None) if first else slice(1, None)
-    outcome = Outcome(part.outcome.status, begin + part.outcome.time, part.outcome.reason)
-    return Part(begin + part.t[keep], part.packed[keep], part.rotors[keep], part.wrench[keep], outcome)
-
-
-def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: list[Part]) -> Trajectory:
+def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: list[Samples]) -> Trajectory:
     """Return the flight that the `parts` make in a row."""
-    t, packed, rotors, wrench = (
-        np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors", "wrench")
-    )
+    t, packed, rotors = (np.concatenate([getattr(part, name) for part in parts]) for name in ("t", "packed", "rotors"))
+    plant, e3 = setting.flight.plant, machine.law.e3
+    true = plant.true_vehicle(machine.vehicle) if isinstance(plant, Sampled) else machine.vehicle
+    packed = convert_packed(packed, e3)
     return record_run(
-        setting.law, machine.vehicle, t, packed, wrench[:, :4], rotor_forces=rotors, outcome=parts[-1].outcome,
-        signals=_signals(machine, gains, t, packed), gains=setting.gains,
+        setting.law, machine.vehicle, t, packed, rotors @ true.mixing(e3).T, rotor_forces=rotors,
+        outcome=parts[-1].outcome, signals=_signals(machine, gains, t, packed), gains=setting.gains,
     )  # fmt: skip
 
 
@@ -196,3 +176,40 @@ def _signals(machine: Tuned | Stepped, gains: Any, t: Any, packed: Any) -> dict[
         return {}
     columns = np.broadcast_to(gains[:, None], (len(gains), len(t)))
     return {"V": np.array(machine.lyapunov(t[None], packed.T, columns))[0]}
+
+
+def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, Any]]:
+    """Fly `setting` with the rod at rest in all directions, the rest of its start unchanged, and yield chunks.
+
+    A chunk holds `total`, `done` and, for each of its flights, `y` (e₃ up), `settling` (s; None for a failure) and
+    `cause`. A flight of more than MOST_STEPS counts as diverged.
+    """
+    flight = setting.flight
+    machine, gains = tune_loop(setting, tell), values(setting)
+    kind = "stepped" if isinstance(machine, Stepped) else "sampled" if isinstance(flight.plant, Sampled) else "ideal"
+    count, done, size = RUNS[kind], 0, FIRST[kind]
+    rods = directions(count)
+    tuning = {name: float(value) for name, value in zip(machine.names, gains, strict=True)}
+    exact = replace(flight.tolerances, max_steps=MOST_STEPS)
+    while done < count:
+        begun = time.thread_time()
+        y = rods[done : done + size]
+        own = _starts(setting.start, y).in_frame(machine.law.e3)
+        request = flight.replace(
+            law=machine.law, starts=own, gains=tuning, criterion=machine.criterion, tolerances=exact
+        )
+        result = fly_many(request, workers=1)
+        done += len(y)
+        judged = zip(result.settling.tolist(), result.success, strict=True)
+        yield {
+            "total": count, "done": done, "y": np.round(y, 5).tolist(),
+            "settling": [settling if good else None for settling, good in judged],
+            "cause": [str(cause) for cause in result.cause],
+        }  # fmt: skip
+        took = max(time.thread_time() - begun, 1e-3)
+        size = int(np.clip(size * CHUNK_TIME / took, FIRST[kind], min(2 * size, MOST[kind])))
+
+
+def _starts(start: State, y: Any) -> State:
+    given = {name: np.broadcast_to(getattr(start, name), (len(y), *SHAPES[name])) for name in SHAPES}
+    return State(**{**given, "y": y, "y_dot": np.zeros_like(y)})

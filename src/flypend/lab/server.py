@@ -21,7 +21,7 @@ from tornado.iostream import IOStream
 from tornado.web import Application, HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from flypend import errors, signals
+from flypend import signals
 from flypend.errors import InputError
 from flypend.lab.answers import ANSWERS, refusal
 from flypend.lab.controls import page
@@ -52,14 +52,13 @@ class Laboratory:
 
     def trusts(self, host: str) -> bool:
         """Whether the Host header `host` names this server, and not a foreign name that resolves to it."""
-        name = urlsplit(f"//{host}").hostname or ""
-        if name in ("localhost", self.host):
-            return True
         try:
-            address = ipaddress.ip_address(name)
-        except ValueError:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:  # it is none, such as [a
             return False
-        return address.is_loopback or not _is_loopback(self.host)
+        asked, own = _address_in(name), _address_in(self.host)
+        here = own is not None and own.is_loopback
+        return name == self.host or (asked is not None and (asked.is_loopback or not here))
 
     def application(self) -> Application:
         """Build the Tornado application: page, script and socket."""
@@ -67,7 +66,7 @@ class Laboratory:
         return Application(
             [
                 (r"/", Page, {**shared, "kind": "text/html", "content": page(self.own)}),
-                (r"/lab\.js", Page, {**shared, "kind": "text/javascript", "content": replay.program("lab")}),
+                (r"/page\.js", Page, {**shared, "kind": "text/javascript", "content": replay.program()}),
                 (r"/socket", Socket, shared),
             ],
             log_function=lambda _: None,  # the client is told of a refusal; no need to log it
@@ -256,15 +255,12 @@ async def _serve(
 
 def address(host: str, port: int) -> str:
     """Return the URL, for a browser on this machine, of a server on `host` and `port`."""
-    errors.number("port", port, at_least=1)
     shown = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)  # noqa: S104
     return f"http{'://'}{shown}:{port}/"
 
 
-def _is_loopback(host: str) -> bool:
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return False
+def _address_in(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    """The address that `host` says; None for a name, which may resolve to any, but for localhost."""
+    with suppress(ValueError):
+        return ipaddress.ip_address("127.0.0.1" if host == "localhost" else host)
+    return None

@@ -19,14 +19,13 @@ from flypend.lab.own import NONE, OwnLaws
 from flypend.laws import BoundLaw, Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
 from flypend.model.shipped import vehicle_table
-from flypend.model.state import FLIP, SHAPES
+from flypend.model.state import SHAPES
 from flypend.model.table import vehicle_names
-from flypend.pages.sliders import sliders_of
-from flypend.pages.starts import plain
+from flypend.pages.offers import plain, sliders_of
 from flypend.plants import Ideal
 from flypend.plants.knobs import LONGEST_SHIFT
 from flypend.plants.sensors import SUITES
-from flypend.settings.runfile import check_plain, run_of, table_at
+from flypend.settings.runfile import check_plain, run_of, start_of, table_at
 
 KEYS = ("vehicle", "law", "plant", "start", "duration", "pokes")
 TABLES: Mapping[str, tuple[str, ...]] = {
@@ -86,10 +85,9 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
     for key, known in TABLES.items():
         if isinstance(given.get(key), dict):
             errors.only_known(key, given[key], known)
-    if isinstance(given.get("plant"), dict) and given["plant"].get("base") == "ideal":
-        given["plant"] = "ideal"  # the page keeps the fields of the sampled plant for later; ignore them
-    if isinstance(given.get("plant"), dict):
-        given["plant"] = _sensed(given["plant"])
+    if isinstance(plant := given.get("plant"), dict):
+        # Of the ideal plant, the page keeps the fields of the sampled one for later; ignore them.
+        given["plant"] = "ideal" if plant.get("base") == "ideal" else _sensed(plant)
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)
@@ -159,19 +157,14 @@ def _start(given: Any) -> State:
     if "random" in fields:
         seed = errors.number("start.random", fields.pop("random"), at_least=0)
         fields = plain(State.random(np.random.default_rng(int(seed)))) | fields
-    try:
-        y = errors.array("y", fields.get("y"), (3,))
-        length = errors.number("|y|", geometry.norm(y), above=1e-3)
-        fields["y"] = y / length  # dragging the rod preserves neither unit length nor tangency
-        y_dot = errors.array("y_dot", fields.get("y_dot", (0.0, 0.0, 0.0)), (3,))
-        fields["y_dot"] = geometry.project_tangent(fields["y"], y_dot)
-        start = State(**fields)
-    except InputError as error:
-        raise InputError(f"start.{error.field}", error.expected, error.got) from None
+    y = errors.array("start.y", fields.get("y"), (3,))
+    # Dragging the rod preserves neither unit length nor tangency.
+    fields["y"] = y / errors.number("start.|y|", geometry.norm(y), above=1e-3)
+    y_dot = errors.array("start.y_dot", fields.get("y_dot", (0.0, 0.0, 0.0)), (3,))
+    fields["y_dot"] = geometry.project_tangent(fields["y"], y_dot)
+    start = start_of(fields)
     for name, most in LARGEST.items():
-        largest = float(np.max(np.abs(getattr(start, name))))
-        if largest > most:
-            raise InputError(f"start.{name}", f"at most {most:g}", f"{largest:g}")
+        errors.number(f"start.{name}", np.max(np.abs(getattr(start, name))), at_most=most)
     return start
 
 
@@ -183,7 +176,7 @@ def _pokes(given: Any) -> tuple[Poke, ...]:
         if not isinstance(entry, dict):
             raise InputError("pokes", "tables", repr(entry)[:80])
         errors.only_known("pokes", entry, ("time", "on", "velocity"))
-        time = errors.number("pokes.time", entry.get("time"), at_least=0, unit="s")
+        time = errors.number("pokes.time", entry.get("time"), at_least=0, at_most=LONGEST, unit="s")
         body = errors.one_of("pokes.on", entry.get("on"), BODIES)
         velocity = errors.array("pokes.velocity", entry.get("velocity"), (3,))
         if np.max(np.abs(velocity)) > 100:
@@ -191,14 +184,11 @@ def _pokes(given: Any) -> tuple[Poke, ...]:
         if pokes and time <= pokes[-1].time:
             raise InputError("pokes.time", "increasing times", f"{time:g} s")
         pokes.append(Poke(time, body, velocity))
-    if pokes and pokes[-1].time > LONGEST:
-        raise InputError("pokes.time", f"at most {LONGEST:g} s", f"{pokes[-1].time:g} s")
     return tuple(pokes)
 
 
 def _check_size(flight: Flight) -> None:
-    if flight.duration > LONGEST:
-        raise InputError("duration", f"at most {LONGEST:g} s", f"{flight.duration:g} s")
+    errors.number("duration", flight.duration, at_most=LONGEST, unit="s")
     if isinstance(flight.plant, Ideal):
         return
     if flight.plant.engine != "equations":
@@ -221,8 +211,3 @@ def _check_gains(law: Law | Controller, vehicle: Vehicle) -> None:
         law.bind(vehicle)
     except InputError as error:
         raise InputError(f"law.gains.{error.field}", error.expected, error.got) from None
-
-
-def in_frame(vector: Any, e3: str) -> Any:
-    """Return `vector` (3,), given in the e₃-up frame, in the frame `e3`."""
-    return np.asarray(vector, dtype=float) if e3 == "up" else FLIP @ vector

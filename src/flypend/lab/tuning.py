@@ -23,7 +23,7 @@ from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.closed_loop import lyapunov_function, symbolic_loop
 from flypend.laws.lqr import by_matrix, entries, gain_matrix
 from flypend.model import State, Vehicle, Wrench
-from flypend.pages.sliders import sliders_of
+from flypend.pages.offers import sliders_of
 from flypend.plants import Sampled
 
 MOST = 48

@@ -1,8 +1,8 @@
 """Replay of runs in a browser: one self-contained page with flights, scene, plots and player.
 
-`make web` bundles the script of the page from the folder web/ into flypend/pages/web/replay.js. This module packs runs
-into the format that the script reads: columns of 32-bit floats in base64, sampled at display rate; the page
-interpolates.
+`make web` bundles the script of this page and of the laboratory from the folder web/ into flypend/pages/web/page.js.
+This module packs runs into the format that the script reads: columns of 32-bit floats in base64, sampled at display
+rate; the page interpolates.
 """
 
 from __future__ import annotations
@@ -53,11 +53,14 @@ PAGE = """<!doctype html>
 """
 
 
-def document(name: str, policy: str, data: dict[str, Any]) -> str:
-    """Return the HTML of a page whose script `name` shows `data`; without a `policy` a server sends both."""
+def document(policy: str, data: dict[str, Any]) -> str:
+    """Return the HTML of a page of `data`: a laboratory if they have an `offer`, else a replay.
+
+    It holds its script and its `policy`; without a policy, a server sends both.
+    """
     data = {"layout": "overlay", "speed": 1.0, "palette": palette.PAGE, "runs": [], **data}
     meta = f'<meta http-equiv="Content-Security-Policy" content="{html.escape(policy)}">\n' if policy else ""
-    script = f"<script>{program(name)}</script>" if policy else f'<script src="{name}.js"></script>'
+    script = f"<script>{program()}</script>" if policy else '<script src="page.js"></script>'
     return PAGE.format(policy=meta, title=html.escape(str(data["title"])), data=embed(data), script=script)
 
 
@@ -110,7 +113,7 @@ def page(
     if windows:
         several = windows if isinstance(windows, Sequence) else [windows]
         data["runs"][0]["windows"] = [_opening(window) for window in several]
-    return document("replay", POLICY, data) if live is None else document("lab", LIVE_POLICY, data | live)
+    return document(POLICY, data) if live is None else document(LIVE_POLICY, data | live)
 
 
 def _opening(window: Opening) -> dict[str, Any]:
@@ -254,6 +257,6 @@ def embed(data: Any) -> str:
 
 
 @cache
-def program(name: str = "replay") -> str:
-    """The bundled script of the page `name`."""
-    return (resources.files("flypend.pages") / "web" / f"{name}.js").read_text(encoding="utf-8")
+def program() -> str:
+    """The bundled script of the page."""
+    return (resources.files("flypend.pages") / "web" / "page.js").read_text(encoding="utf-8")

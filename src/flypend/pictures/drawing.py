@@ -19,8 +19,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.model import State, Vehicle
 from flypend.model.state import project as project_states
 from flypend.pages import sketch
-from flypend.pages.camera import Camera, depth, magnification, project
-from flypend.pages.sketch import BOB_SHARE, Sketch
+from flypend.pages.sketch import BOB_SHARE, Camera, Sketch, depth, magnification, project
 from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED
 
 VIEWS = ("side", "axis")

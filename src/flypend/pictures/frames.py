@@ -26,8 +26,7 @@ from flypend.flight.trajectory import Trajectory
 from flypend.flight.verdict import verdict
 from flypend.model import State, Vehicle
 from flypend.pages import sketch
-from flypend.pages.camera import Camera, depth, magnification, project
-from flypend.pages.sketch import Sketch
+from flypend.pages.sketch import Camera, Sketch, depth, magnification, project
 from flypend.palette import BLUE, GREEN, INK, ORANGE, REAR, RED, STATES
 from flypend.pictures import drawing
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from flypend import errors, geometry
 from flypend.flight.trajectory import Trajectory
 from flypend.pages import sketch
-from flypend.pages.camera import project
+from flypend.pages.sketch import project
 from flypend.palette import GREEN, GREY, INK, ORANGE, RED
 from flypend.pictures import drawing
 from flypend.pictures.drawing import TRAIL

@@ -15,7 +15,8 @@ from __future__ import annotations
 import casadi as ca
 
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, Numbers, Scalar, cross, dot, polar_step, scale, tangent_part, unit, vee
+from flypend.geometry import E3, Numbers, Scalar, cross, polar_step, tangent_part, unit, vee
+from flypend.laws.sphere import acceleration
 from flypend.plants.cascade import rotation_by
 from flypend.plants.sensing import NOTHING
 
@@ -117,7 +118,7 @@ def track_rod(period: float) -> ca.Function:
     force, length = ca.SX.sym("force", 3), ca.SX.sym("length")
     before = ROD.split(memory)
     told = _Told(age, before["since"], period, ROD_GAP)
-    turning = -tangent_part(before["y"], force) / length - scale(dot(before["y_dot"], before["y_dot"]), before["y"])
+    turning = acceleration(before["y"], before["y_dot"], -tangent_part(before["y"], force) / length)
     y = unit(before["y"] + period * before["y_dot"] + period**2 / 2 * turning)
     y_dot = tangent_part(y, before["y_dot"] + period * turning)
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import casadi as ca
 
-from flypend.geometry import E3, Numbers, Scalar, Vector, dot, norm, scale, unit
+from flypend.geometry import E3, Numbers, Scalar, Vector, dot, norm, scale, tangent_part, unit
 from flypend.laws.throw import Bob, Rod, coast
 from flypend.model import Vehicle
 
@@ -87,7 +87,7 @@ def motion(p: Sequence[Vector], vehicle: Vehicle) -> tuple[Motion, Motion]:
     y_3 = -(scale(size_3, y) + 3 * scale(size_2, y_1) + 3 * scale(size_1, y_2)) / size
     force, force_1 = whole * A - swung * y_2, whole * A_1 - swung * y_3
     z = unit(force)
-    z_1 = (force_1 - scale(dot(z, force_1), z)) / norm(force)
+    z_1 = tangent_part(z, force_1) / norm(force)
     return Motion(p[0], p[1], p[3], y, y_1, size, force, z), Motion(p[1], p[2], p[4], y_1, y_2, size_1, force_1, z_1)
 
 

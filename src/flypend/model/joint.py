@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from flypend.geometry import Scalar, Vector, apply, cross, dot, is_symbolic, scale
+from flypend.geometry import Scalar, Vector, apply, cross, dot, is_symbolic, scale, tangent_part
 from flypend.model.state import State
 from flypend.model.vehicle import Vehicle
 
@@ -19,7 +19,7 @@ CREEP = 0.05
 def swing(state: State) -> Vector:
     """Return the angular velocity (..., 3) of the rod relative to the vehicle, across the rod; world frame, rad/s."""
     body = apply(state.R, state.omega)
-    return cross(state.y, state.y_dot) - (body - scale(dot(state.y, body), state.y))
+    return cross(state.y, state.y_dot) - tangent_part(state.y, body)
 
 
 def friction(state: State, vehicle: Vehicle) -> Vector:

@@ -298,6 +298,6 @@ assert tuple(field.name for field in fields(State)) == tuple(SHAPES)
 def project_symbolic(packed: Numbers) -> Numbers:
     """Project a packed CasADi state (24, 1), close to the manifold, onto it; R by one `geometry.polar_step`."""
     s = State.symbolic(packed)
-    y = s.y / ca.norm_2(s.y)
-    y_dot = s.y_dot - ca.dot(y, s.y_dot) * y
+    y = geometry.unit(s.y)
+    y_dot = geometry.tangent_part(y, s.y_dot)
     return State(x=s.x, x_dot=s.x_dot, R=geometry.polar_step(s.R), omega=s.omega, y=y, y_dot=y_dot).packed()

@@ -94,8 +94,7 @@ class Wind:
 # Numbers of `Sampled`, with bounds and units; those that may be None; and the kinds of other fields.
 # A prediction takes 100 ticks or more at the highest rate.
 _NUMBERS: dict[str, dict[str, Any]] = {
-    "rate": {"at_least": LEAST_RATE, "at_most": 1e4, "unit": "Hz"},
-    "rate_loop_rate": {"at_least": LEAST_RATE, "at_most": 1e5, "unit": "Hz"},
+    "rate": {"above": 0, "at_most": 1e4, "unit": "Hz"}, "rate_loop_rate": {"above": 0, "at_most": 1e5, "unit": "Hz"},
     "rate_loop_gain": {"above": 0, "unit": "1/s"}, "lag": {"at_least": 0, "unit": "s"}, "spin_up": {"above": 0},
     "sag": {"at_least": 0, "at_most": MOST_SAG}, "ground": {"unit": "m"}, "floor": {"unit": "m"},
     "pivot_damping": {"at_least": 0, "unit": "N m s"}, "pivot_friction": {"at_least": 0, "unit": "N m"},
@@ -264,6 +263,9 @@ class Sampled:
         for name, bounds in _NUMBERS.items():
             if (value := getattr(self, name)) is not None or name not in _OPTIONAL:
                 errors.number(f"plant.{name}", value, **bounds)
+        for name in ("rate", "rate_loop_rate"):
+            if getattr(self, name) < LEAST_RATE:
+                raise InputError(f"plant.{name}", f"at least {LEAST_RATE:g} Hz", f"{getattr(self, name):g}")
         longest = min(LONGEST_DELAY, MOST_IN_TRANSIT / self.rate)
         errors.number("plant.delay", self.delay, at_least=0, at_most=longest, unit="s")
         object.__setattr__(self, "strength", _strength(self.strength))

@@ -136,7 +136,7 @@ def nmpc(
         name="nmpc",
         function=rotors_only("nmpc"),
         reference=followed,
-        flight_computer=partial(Pilot, receding),
+        flight_computer=receding,
         because="it solves a problem in every stage",
     )
 
@@ -154,7 +154,7 @@ def _check_in_flight(kept: Constraints, reference: Reference) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Receding:
-    """What the pilots of a controller have in common. See `nmpc` for the fields.
+    """What the pilots of a controller have in common; called, it makes one. See `nmpc` for the fields.
 
     `law` is what flies otherwise, `latency` what the board predicts over for plans, and `computing` None if measured.
     """
@@ -164,6 +164,12 @@ class Receding:
     latency: float
     computing: float | None
     constraints: Constraints
+
+    def __call__(self, loop: Loop, rotors: ArrayLike) -> Pilot:
+        """Return the flight computer for a `loop` and initial `rotors` (n,), N. Raises InputError; see `check`."""
+        if self.constraints.given:
+            self.check(loop.vehicle)
+        return Pilot(self, loop, rotors)
 
     def check(self, vehicle: Vehicle) -> None:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
@@ -201,12 +207,10 @@ class Pilot(Boards):
     """The flight computer of `nmpc`, for one flight: `receding` is what it has in common with others; see `Boards`.
 
     `changes` say when it changed hands, s, to which mode, and why; `plans` are those that were flown, and `spent` is
-    the processor time of each real-time iteration, s. Raises InputError as `Receding.check` does.
+    the processor time of each real-time iteration, s.
     """
 
     def __init__(self, receding: Receding, loop: Loop, rotors: ArrayLike) -> None:
-        if receding.constraints.given:
-            receding.check(loop.vehicle)
         super().__init__(loop, receding.law, receding.latency, rotors)
         self._common, self._vehicle = receding, loop.vehicle
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)

@@ -40,7 +40,7 @@ def store(tmp_path_factory):
 
 def everything(path):
     found = existing(path)
-    parts = [found.read(k) for k in range(-(-found.runs // found.chunk))]
+    parts = [found.read(k) for k in range(found.study.chunks)]
     return {name: np.concatenate([part[name] for part in parts]) for name in found.columns}
 
 

@@ -23,7 +23,7 @@ def columns(path):
     store = existing(path)
     return {
         (name, k): np.asarray(values).tobytes()
-        for k in range(-(-store.runs // store.chunk))
+        for k in range(store.study.chunks)
         for name, values in store.read(k).items()
     }
 

@@ -44,7 +44,7 @@ NOISY = {
 def columns(path):
     """Every number of a store."""
     store = existing(path)
-    parts = [store.read(k) for k in range(-(-store.runs // store.chunk))]
+    parts = [store.read(k) for k in range(store.study.chunks)]
     return {name: np.concatenate([part[name] for part in parts]) for name in store.columns}
 
 

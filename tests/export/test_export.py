@@ -223,7 +223,8 @@ def test_lead_within_limits_and_the_model_of_the_rotors():
 
 
 def test_a_name_does_not_end_the_comment_that_it_stands_in():
-    assert library(INVERTED, VEHICLE.replace(name="mine */ +"), "double").made.vehicle.name == "mine */ +"
+    vehicle = VEHICLE.replace(name="mine */ +")
+    assert library(fp.laws.inverted(), vehicle, "double").made.vehicle == vehicle  # it compiles
 
 
 # Refusals -------------------------------------------------------------------------------------------------------

@@ -8,7 +8,15 @@ import flypend as fp
 from flypend.geometry import cross, hat, vee
 from flypend.model import Disturbance, disturbed_motion
 from flypend.model.dynamics import gyroscopic_moment, swing_around
-from flypend.model.momenta import angular_acceleration, lever, moment_for, outside_on_rod, pull_on_rod, split_force
+from flypend.model.momenta import (
+    angular_acceleration,
+    carrying_force,
+    lever,
+    moment_for,
+    outside_on_rod,
+    pull_on_rod,
+    split_force,
+)
 
 LOPSIDED = fp.vehicle("hehn2011").replace(inertia=[[0.0032, 2e-4, -1e-4], [2e-4, 0.0041, 3e-4], [-1e-4, 3e-4, 0.0055]])
 
@@ -34,6 +42,18 @@ def test_rates_of_momenta_are_those_of_the_equations_of_motion(vehicle):
     mass, arm = vehicle.M + vehicle.m, lever(vehicle)
     force = thrust[:, None] * state.z + on_vehicle + on_bob - vehicle.weight * np.array([0, 0, 1])
     np.testing.assert_allclose(rates.x_ddot + arm * rates.y_ddot, force / mass, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("vehicle", [fp.vehicle("hehn2011"), fp.vehicle("nayak2018")])
+def test_a_bob_is_carried_along_the_rod_by_the_force_that_says_so(vehicle):
+    """The thrust axis along the rod, so that all of the thrust acts along it."""
+    rng = np.random.default_rng(8)
+    state, a = fp.State.random(rng, 100, max_omega=5.0, max_y_dot=9.0), rng.uniform(-3, 20, 100)
+    state = fp.State(**{**vars(state), "y": state.z, "y_dot": cross(rng.normal(size=(100, 3)), state.z)})
+    thrust = carrying_force(a, state.y_dot, vehicle)
+    rates = disturbed_motion(state, fp.Wrench(thrust, np.zeros((100, 3))), vehicle, "up")
+    carried = rates.x_ddot + vehicle.l * rates.y_ddot + [0, 0, vehicle.g]
+    np.testing.assert_allclose(carried, a[:, None] * state.y, rtol=0, atol=1e-10)
 
 
 def test_forces_are_split_into_those_with_their_sum_and_difference():

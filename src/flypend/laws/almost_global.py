@@ -36,6 +36,7 @@ from flypend.laws.references import Path, Reference, hover
 from flypend.laws.step import Push, aim, push, share
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, lie_derivative
+from flypend.model.momenta import carrying_force
 
 OUTSIDE = Guard(
     signal="domain",
@@ -150,7 +151,7 @@ def _lagged_control(
 
 def _outer(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, path: Path) -> Outer:
     """Return position and rod: the force F that turns the rod towards A and carries the bob."""
-    M, m, l, g = vehicle.M, vehicle.m, vehicle.l, vehicle.g
+    M, l, g = vehicle.M, vehicle.l, vehicle.g
     y, y_dot, step = state.y, state.y_dot, rod_step(k)
     _, p_ref, _ = path(t, vehicle, ca.SX.zeros(3))
     v_ref, a_ref = derivatives(p_ref, t, 2)
@@ -169,6 +170,6 @@ def _outer(t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, path: 
     aimed = aim(y, d, turn, size, v, step)
     u = push(y, y_dot, aimed, lie_derivative(aimed.rate, state, ideal, t), step)  # Lemma S
 
-    F = ((M + m) * a_d + M * l * dot(y_dot, y_dot)) * y - M * l * u.force  # (B6)
+    F = carrying_force(a_d, y_dot, vehicle) * y - M * l * u.force  # (B6)
     terms = (U + dot(v, v) / 2, u.potential, u.kinetic)
     return Outer(F, terms, u.rate_error, aimed.cosine, u.decay - dot(v, sigma_v))

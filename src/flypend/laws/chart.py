@@ -18,13 +18,14 @@ Labels are those of docs/laws/theorem-proof.md.
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import casadi as ca
 
 from flypend.geometry import E3, Scalar, Vector, cross, dot, scale, tangent_part
 from flypend.laws.almost_global_gains import axis_step, damper, rod_step, spring
 from flypend.laws.step import barrier_slope, desired_velocity, share, steering
+from flypend.model.momenta import carrying_force
 
 SIZE, LAGGED = 14, 17  # coordinates without and through a lag
 
@@ -92,7 +93,8 @@ def law_at(
     along_v = v - rod.weight * rod.stiffness * barrier_slope(c_y, rod) * c_v - rod.weight * ca.mtimes(r_v.T, zeta_y)
 
     # Force. F·y > 0: divided by it likewise.
-    carried = (M + m) * a_d + M * l * dot(y_dot, y_dot)  # (B6)
+    body: Any = SimpleNamespace(M=M, m=m, l=l)
+    carried = carrying_force(a_d, y_dot, body)  # (B6)
     aside = -M * l / carried * u_d
     longer = ca.sqrt(1 + dot(aside, aside))
     N, z_d = carried * longer, (y + aside) / longer

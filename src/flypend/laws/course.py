@@ -15,6 +15,7 @@ import casadi as ca
 from flypend.geometry import E3, Numbers, Scalar, Vector, dot, norm, scale, tangent_part, unit
 from flypend.laws.throw import Bob, Rod, coast
 from flypend.model import Vehicle
+from flypend.model.momenta import carrying_force
 
 # Derivatives of p, beside itself, that are used: up to its snap, as exported code is told.
 DERIVATIVES = 4
@@ -64,8 +65,7 @@ class Motion(NamedTuple):
         bob = self.p + l * (rod.y - self.y), self.v + l * (rod.y_dot - self.y_dot)
         jerk = scale(dot(self.y, self.jerk), rod.y) + scale(self.size, rod.y_dot)
         # What the loops ask for: the force along a rod that coasts.
-        carrying = (vehicle.M + vehicle.m) * self.size + vehicle.M * l * dot(rod.y_dot, rod.y_dot)
-        force = self.force - scale(carrying, rod.y)
+        force = self.force - scale(carrying_force(self.size, rod.y_dot, vehicle), rod.y)
         return Course(*bob, scale(self.size, rod.y) - vehicle.g * E3, jerk, rod.y, force)
 
 

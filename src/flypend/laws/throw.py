@@ -11,6 +11,7 @@ from flypend.geometry import E3, Numbers, Scalar, Vector, cross, dot, norm, scal
 from flypend.laws.references import Path, Reference
 from flypend.laws.smooth import positive, smooth_step, soft
 from flypend.model import Vehicle
+from flypend.model.momenta import carrying_force
 
 # Rate at which the pump stops the rod's circling, in units of the rate of its energy. More than a half costs height.
 CIRCLING = 0.4
@@ -191,7 +192,7 @@ def steering_force(
     u = u + scale(dot(y, omega_d), cross(y, y_dot))
 
     difference = on_bob / m - on_vehicle / M
-    F = -M * l * u + scale((M + m) * dot(A, y) + M * l * dot(y_dot, y_dot), y) + M * difference
+    F = -M * l * u + scale(carrying_force(dot(A, y), y_dot, vehicle), y) + M * difference
     if k.mounting.cone is not None:
         F = F + scale((1 - pose.low) * missing_along(F, y, k.mounting.cone), y)
     swing = k.pump_share * pose.low

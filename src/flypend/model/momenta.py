@@ -12,7 +12,7 @@ They are those of `model.motion` for a pivot offset of zero.
 
 from __future__ import annotations
 
-from flypend.geometry import Scalar, Vector, apply, scale
+from flypend.geometry import Scalar, Vector, apply, dot, scale
 from flypend.model.dynamics import gyroscopic_moment
 from flypend.model.vehicle import Vehicle
 
@@ -35,6 +35,12 @@ def lever(vehicle: Vehicle) -> Scalar:
 def pull_on_rod(thrust: Scalar, z: Vector, vehicle: Vehicle) -> Vector:
     """Return the part of b (..., 3), 1/s², that the `thrust` (N) along `z` exerts: −f z/(M l)."""
     return scale(-1 / (vehicle.M * vehicle.l) * thrust, z)
+
+
+def carrying_force(a: Scalar, y_dot: Vector, vehicle: Vehicle) -> Scalar:
+    """Return the force on the vehicle along the rod, N, under which the bob accelerates by a y − g e₃."""
+    M, m, l = vehicle.M, vehicle.m, vehicle.l
+    return (M + m) * a + M * l * dot(y_dot, y_dot)
 
 
 def outside_on_rod(on_vehicle: Vector, on_bob: Vector, vehicle: Vehicle) -> Vector:

@@ -9,6 +9,7 @@ import pytest
 import flypend as fp
 from flypend import geometry as geo
 from flypend.flight.integrate import integrate
+from flypend.flight.request import Tolerances
 from flypend.laws import Control, Guard
 from flypend.model.state import MAX_STATE
 from flypend.paper import experiment
@@ -238,7 +239,7 @@ def test_integrate_by_itself_keeps_the_start():
         return out
 
     start = TUMBLING.packed()
-    solution = integrate(rates, start, 2.0, rtol=1e-8, atol=1e-8)
+    solution = integrate(rates, start, 2.0, Tolerances(rtol=1e-8))
     assert solution.outcome.status == "completed"
     np.testing.assert_array_equal(solution(0.0)[0], start)
     np.testing.assert_allclose(solution([1.0])[0, 0], 0.5, rtol=0, atol=1e-14)

@@ -9,6 +9,7 @@ from scipy.linalg import expm
 import flypend as fp
 from flypend.compile.numeric import as_numpy
 from flypend.flight.integrate import integrate
+from flypend.flight.request import Tolerances
 from flypend.laws.closed_loop import close_loop
 from flypend.laws.linearise import COORDINATES, linearise, open_loop, retract, tangent_basis
 from flypend.laws.throw import THRUST_SHARE
@@ -82,7 +83,7 @@ def flow_derivative(loop, at, h, eps):
         ends = []
         for sign in (1, -1):
             start = retract(at, sign * eps * np.eye(16)[i])
-            end = integrate(rates, start.packed(), h, rtol=1e-13, atol=1e-13)(np.array([h]))[0]
+            end = integrate(rates, start.packed(), h, Tolerances(rtol=1e-13))(np.array([h]))[0]
             ends.append(coordinates_of(fp.State.from_packed(end), at) / eps)
         columns.append((ends[0], -ends[1]))
     forward, backward = np.array(columns).transpose(1, 2, 0)

@@ -416,7 +416,7 @@ def test_a_policy_is_a_file(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "array", "words"),
-    [("b_1", np.zeros(3), r"W_1: expected numbers of shape \(3, 18\)"), ("D", np.float32(1), "D: expected numbers of"),
+    [("b_1", np.zeros(3), r"b_1: expected numbers of shape \(12\)"), ("D", np.float32(1), "D: expected numbers of"),
      ("W_2", np.full((9, 12), np.nan), "W_2: expected finite numbers"),
      ("W_3", np.full((4, 9), 1e300), r"W_3: expected weights up to 3\.4e\+38")],
 )  # fmt: skip

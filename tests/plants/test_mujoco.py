@@ -12,6 +12,7 @@ import flypend as fp
 from flypend import geometry as geo
 from flypend.compile.numeric import as_numpy
 from flypend.flight.integrate import integrate
+from flypend.flight.request import Tolerances
 from flypend.laws.closed_loop import close_loop
 from flypend.model import Disturbance, disturbed_motion, equations_of_motion, mjcf, total_energy
 from flypend.model.mjcf import model_xml
@@ -81,7 +82,7 @@ def _integrated(motion, start, duration, *arguments):
     packed = ca.SX.sym("s", SIZE)
     rates = motion(fp.State.symbolic(packed), *arguments)
     function = as_numpy(ca.Function("rates", [packed], [ca.densify(ca.cse(rates.packed()))]))
-    run = integrate(lambda t, s: function(s), start.packed(), duration, rtol=1e-11, atol=1e-11)
+    run = integrate(lambda t, s: function(s), start.packed(), duration, Tolerances(rtol=1e-11))
     assert run.outcome.status == "completed"
     return run([duration])[0]
 

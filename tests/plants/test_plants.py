@@ -11,6 +11,7 @@ import flypend as fp
 from flypend import geometry as geo
 from flypend.flight import sampled
 from flypend.flight.integrate import integrate
+from flypend.flight.request import Tolerances
 from flypend.laws import Computer
 from flypend.model import Disturbance, disturbed_motion, linear_momentum, total_energy
 from flypend.model.state import FLIP_PACKED, MAX_STATE
@@ -290,7 +291,7 @@ def _integrated(vehicle, forces_of, start, duration, **disturbances):
         motion = disturbed_motion(state, wrench, vehicle, "up", Disturbance(**disturbances))
         return np.array(motion.packed())[:, 0]
 
-    return integrate(rates, start.packed(), duration, rtol=1e-12, atol=1e-12)([duration])[0]
+    return integrate(rates, start.packed(), duration, Tolerances(rtol=1e-12))([duration])[0]
 
 
 @ENGINES

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from flypend import signals
 from flypend.flight.outcome import LEFT, NOT_ENOUGH, UNDEFINED, Outcome
-from flypend.flight.request import MAX_STEPS
+from flypend.flight.request import Tolerances
 from flypend.model.state import MAX_STATE, project
 
 Rates = Callable[[float, Any], Any]
@@ -45,10 +45,8 @@ def integrate(
     rates: Rates,
     start: Any,
     duration: float,
+    tolerances: Tolerances,
     *,
-    rtol: float,
-    atol: float,
-    max_steps: int = MAX_STEPS,
     margin: Margin | None = None,
     margin_reason: str = "",
     touch: Callable[[Any], tuple[float, str] | None] = lambda _: None,
@@ -72,13 +70,13 @@ def integrate(
     knots: list[float] = [0.0]
     interpolants: list[Any] = []
     drifts: list[Any] = []
-    solver = DOP853(rates, 0.0, start, duration, rtol=rtol, atol=atol)
+    solver = DOP853(rates, 0.0, start, duration, rtol=tolerances.rtol, atol=tolerances.absolute)
     outcome: Outcome | None = None
     with np.errstate(all="ignore"):
         while outcome is None:
             signals.poll()
             message = solver.step()
-            if (outcome := _lost(solver, message, len(interpolants), max_steps)) is not None:
+            if (outcome := _lost(solver, message, len(interpolants), tolerances.steps)) is not None:
                 break
             interpolants.append(solver.dense_output())
             knots.append(solver.t)

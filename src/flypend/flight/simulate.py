@@ -133,10 +133,9 @@ def _by_scipy(flight: Flight, loop: ClosedLoop) -> Integration:
         def margin(t: float, s: Numbers) -> float:
             return float(outputs(t, s)[row]) - threshold
 
-    exact, rates = flight.tolerances, as_numpy(loop.rates)
     return integrate(
-        rates, flight.packed[0], flight.duration, rtol=exact.rtol, atol=exact.absolute,
-        max_steps=exact.steps, margin=margin, margin_reason=reason, touch=_touch(flight, loop),
+        as_numpy(loop.rates), flight.packed[0], flight.duration, flight.tolerances, margin=margin, margin_reason=reason,
+        touch=_touch(flight, loop),
     )  # fmt: skip
 
 

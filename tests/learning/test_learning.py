@@ -113,6 +113,13 @@ def test_a_drawn_machine_flies_as_in_the_plant_of_that_world(tmp_path):
         assert (max(apart) < 2e-3) == close, apart
 
 
+def test_a_battery_gives_a_training_the_largest_forces_that_it_gives_near_hover():
+    course = Course(VEHICLE, duration=0.4)
+    full, drained = (machine_of(course, fp.Plant(sag=sag), 0.0)[1][-4:] for sag in (0.0, 0.1))
+    load = (VEHICLE.weight / 4 / VEHICLE.rotor_limits[1]) ** 1.5
+    np.testing.assert_allclose(drained, (1 - 0.1 * load) ** 2 * full, rtol=1e-12)
+
+
 def test_errors_are_those_of_hover_once_the_start_is_forgotten():
     course = Course(MINE, duration=4.0, sensors=MOCAP)
     errors = Machines.of(course, 0).errors(np.random.default_rng(1), 2000)

@@ -5,7 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.flight.live import live_loop
-from flypend.pages.offers import _last_good, plant_sliders
+from flypend.pages.offers import _last_good, _reach, plant_sliders
 from flypend.plants import Plant, Wind
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -30,6 +30,12 @@ def test_a_callable_law_has_no_live_page(tmp_path):
         run.to_html(tmp_path / "flight.html", live=True)
     with pytest.raises(fp.InputError, match=r"^live: expected a law in symbols"):
         live_loop(run.flight)
+
+
+def test_a_slider_of_a_negative_gain_reaches_as_far_to_either_side():
+    reach = _reach(-2.0)
+    assert reach.low == -reach.high < -2.0
+    assert not reach.log
 
 
 def test_a_slider_ends_where_its_values_begin_to_be_refused():

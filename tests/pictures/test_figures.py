@@ -598,3 +598,13 @@ def test_the_title_names_only_options_that_are_not_the_usual_ones():
     vehicle, start = fp.vehicle("hehn2011"), fp.State(y=(0, 0, 1))
     full, light = (fp.simulate(vehicle, fp.laws.inverted(form=form), start, 0.1) for form in ("full", "light"))
     assert (title(full), title(light)) == ("inverted law", "inverted law, form light")
+
+
+def test_a_vehicle_that_tumbles_for_a_moment_is_drawn_by_enough_points():
+    """At a turn of 0.2 rad from point to point, although the samples are few and the rod is at rest."""
+    run = fp.simulate(fp.vehicle("hehn2011"), fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.4, plant="ideal")
+    omega = np.zeros_like(run.omega)
+    omega[3, 0] = 100.0
+    turning = dataclasses.replace(run, omega=omega, y_dot=np.zeros_like(run.y_dot))
+    t, found = figures.unit_vectors(turning)
+    assert len(t) == 100 * 0.4 / 0.2 + 1 == len(found["z"])

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
+import casadi as ca
 import numpy as np
 
 from flypend.identification.model import ERROR
@@ -20,6 +21,7 @@ from flypend.model import Vehicle
 from flypend.planning.dynamics import Units
 from flypend.plants.bands import draw_world
 from flypend.plants.lag import step_timing
+from flypend.plants.motors import sag_forces
 from flypend.plants.plant import Sampled
 from flypend.plants.sensors import Sensors
 from flypend.plants.tremor import estimate_errors
@@ -148,9 +150,9 @@ def machine_of(course: Course, world: Sampled, delay: float) -> tuple[Any, Any, 
     believed, true = course.vehicle, world.true_vehicle(course.vehicle)
     units, own = Units.of(believed), Units.of(true)
     n, h, late = len(true.rotor_spins), course.period, max(delay, LEAST_DELAY * course.period)
-    hover = true.weight / n / true.rotor_limits[1]
-    sagged = (1 - world.sag * hover**1.5) ** 2  # the battery as in hover
-    strength = sagged * np.broadcast_to(world.strength, (n,))
+    hover = np.full(n, true.weight / n)
+    sagged = np.array(sag_forces(ca.DM(hover), true.rotor_limits[1], world.sag)).ravel() / hover  # battery as in hover
+    strength = sagged * world.strength
     lag = true.rotor_lag * (1 + world.spin_up) / 2
     lead = 1 / -np.expm1(-h / believed.rotor_lag) if believed.rotor_lag > 0 else 1.0
     timings = [step_timing(lag / own.time, part / own.time) for part in (late, h - late)]

@@ -52,6 +52,13 @@ def test_a_flight_that_ends_before_they_have_held_has_not_recovered():
     assert recovery.distance > 0.5
 
 
+@pytest.mark.parametrize(("back", "recovered"), [(1.995, False), (1.985, True)])
+def test_the_last_sample_decides_whether_they_have_held(back, recovered):
+    """They have to hold for longer than a second, and the flight ends at 3 s."""
+    (recovery,) = fp.recoveries(flight(x=away((0.495, back + 0.01))))
+    assert math.isnan(recovery.time) != recovered
+
+
 @pytest.mark.parametrize("lean", [0.6, 1.5, 3.0])
 def test_of_a_start_the_time_is_that_of_the_metrics(lean):
     start = fp.State(y=(math.sin(lean), 0, math.cos(lean)))

@@ -1,5 +1,7 @@
 """Studies on many workers: whoever flies a chunk, its bits are the same."""
 
+from concurrent.futures.process import BrokenProcessPool
+
 import numpy as np
 import pytest
 
@@ -53,3 +55,13 @@ def test_workers_of_a_dask_cluster_in_processes_of_their_own_write_the_same_byte
     ) as cluster:  # fmt: skip
         fp.sweep(STUDY, tmp_path / "a.zarr", scheduler=cluster.scheduler_address)
     assert columns(tmp_path / "a.zarr") == alone
+
+
+def test_processes_that_die_again_and_again_are_told_in_one_sentence(tmp_path, monkeypatch):
+    def dying(*_):
+        raise BrokenProcessPool("A process was terminated. Look elsewhere for the reason.")
+        yield
+
+    monkeypatch.setattr("flypend.studies.sweep.run._fly_numbers", dying)
+    with pytest.raises(fp.InputError, match=r"^processes: .*, got A process was terminated$"):
+        fp.sweep(STUDY, tmp_path / "a.zarr", workers=2, processes=True)

@@ -199,9 +199,10 @@ def test_what_cannot_be_a_folder_is_refused_before_the_work(tmp_path, out, line)
 def test_checking_leaves_nothing(tmp_path, exists):
     if exists:
         (tmp_path / "out").mkdir()
-    before = content(tmp_path)
+    before, times = content(tmp_path), [path.stat().st_mtime_ns for path in (tmp_path, *tmp_path.iterdir())]
     check_writable(tmp_path / "out")
     assert content(tmp_path) == before
+    assert [path.stat().st_mtime_ns for path in (tmp_path, *tmp_path.iterdir())] == times
 
 
 def test_a_folder_is_as_readable_as_any_other(tmp_path):

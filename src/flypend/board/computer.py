@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -22,7 +21,7 @@ from flypend.board.program import (
     remembering,
     trimming,
 )
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.geometry import Numbers
 from flypend.laws import Controller
 from flypend.plants.loop import Loop
@@ -118,7 +117,7 @@ class _Stages(NamedTuple):
     carry: Callable[..., Any] | None = None
 
 
-@lru_cache(maxsize=64)
+@built(maxsize=64)
 def _stages(loop: Loop) -> _Stages:
     made = parts(loop)
     programs = [predicting(made), remembering(made), trimming(made)]

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import fields
-from functools import cache, lru_cache
+from functools import cache
 from importlib import metadata
 from typing import Any
 
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
-from flypend.compile.numeric import aligned
+from flypend.compile.numeric import aligned, built
 from flypend.compile.problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
@@ -31,7 +31,7 @@ MOST_THREADS = 1024  # a bound that no machine reaches; they start one by one
 KINDS = [ctypes.c_int64 if name in INTEGERS else ctypes.c_void_p for name in ARGUMENTS]
 
 
-@lru_cache(maxsize=32)
+@built(maxsize=32)
 def compile_worlds(made: WorldsProblem) -> jit.Native:
     """Return the kernel of `made`, compiled or from the cache."""
     return jit.build(f"worlds, {WIDTH} lanes: {made!r}", lambda: kernel_module(made, WIDTH), "kernel", KINDS)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -14,6 +13,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE, finish, found_length, lead_rotors, rescale
 from flypend.board.program import advance_unmeasured, board, initial_memory, parts
 from flypend.compile.c99 import reads
+from flypend.compile.numeric import built
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.compile.record import Record
 from flypend.compile.routine import Routine, lower_calls
@@ -132,7 +132,7 @@ def interface(law: Law | BoundLaw, vehicle: Vehicle, rate: float = 500.0, sensor
     return _interface(law.bind(vehicle), vehicle, float(rate), sensors)
 
 
-@lru_cache(maxsize=8)  # each precision takes the same
+@built(maxsize=8)  # each precision takes the same
 def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | None) -> Interface:
     """Build what `interface` returns for a law that is bound."""
     loop = Loop(vehicle, law, Sampled(rate=rate))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -13,6 +12,7 @@ from flypend.board.believed import Believed
 from flypend.board.command import law_command
 from flypend.board.program import board, initial_memory
 from flypend.compile.c99 import Precision
+from flypend.compile.numeric import built
 from flypend.export import records
 from flypend.export.interface import reference_numbers, shift_path, wrench_from_stream
 from flypend.laws import BoundLaw
@@ -65,7 +65,7 @@ def round_to(values: Any, precision: Precision) -> Any:
     return values.astype(np.float32).astype(float) if precision == "float" else values
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
     """The CasADi function (state (30), reference (30)) → wrench (4), rotor forces (n) of the bound `law`."""
     state, reference = ca.SX.sym("state", records.STATE.length), ca.SX.sym("reference", records.REFERENCE.length)
@@ -74,7 +74,7 @@ def answers(law: BoundLaw, vehicle: Vehicle) -> Any:
     return ca.Function("answers", [state, reference], ca.cse([wrench, rotors]))
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def path_reference(vehicle: Vehicle) -> Any:
     """The CasADi function (path (27), forces (6)) → numbers of `records.REFERENCE`."""
     path, forces = ca.SX.sym("path", records.PATH.length), ca.SX.sym("forces", 6)
@@ -115,7 +115,7 @@ def flights(
     return Flights(*map(np.array, columns))
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def board_step(loop: Loop, law: BoundLaw | None = None) -> ca.Function:
     """The board of `loop` with all numbers as constants: (memory, measurement, path, –, –) → (memory, command).
 

@@ -6,7 +6,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from flypend import signals
@@ -15,7 +15,12 @@ from flypend.errors import InputError
 
 def check_writable(out: str | Path) -> None:
     """Raise InputError unless `out` is, or can be created as, a writable folder. Leaves the file system unchanged."""
-    _open(Path(out)).rmdir()
+    tried = Path(out)
+    before = _beside(tried).stat() if _beside(tried).is_dir() else None
+    _open(tried).rmdir()
+    if before is not None:
+        with suppress(PermissionError):  # whoever may write to a folder of somebody else may not set its times
+            os.utime(_beside(tried), ns=(before.st_atime_ns, before.st_mtime_ns))
 
 
 def write_texts(out: str | Path, texts: Mapping[str, str]) -> None:
@@ -58,10 +63,13 @@ def _open(out: Path) -> Path:
     if os.path.lexists(out) and not out.is_dir():
         raise InputError(str(out), "a folder", "a file" if out.exists() else "a link that leads nowhere")
     try:
-        beside = out if out.is_dir() else out.absolute().parent
-        return Path(tempfile.mkdtemp(prefix=f".{out.name}-partial-", dir=beside))
+        return Path(tempfile.mkdtemp(prefix=f".{out.name}-partial-", dir=_beside(out)))
     except OSError as error:
         raise _unwritable(out, error) from None
+
+
+def _beside(out: Path) -> Path:
+    return out if out.is_dir() else out.absolute().parent
 
 
 def _check_free(target: Path, out: Path) -> None:

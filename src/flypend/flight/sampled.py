@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import casadi as ca
@@ -17,7 +16,7 @@ from flypend import signals
 from flypend.board.command import idle_command
 from flypend.board.computer import Estimating, FlightComputer, SteppedBoard
 from flypend.compile.llvm.random import PER_TICK, normals
-from flypend.compile.numeric import as_numpy, distinct
+from flypend.compile.numeric import as_numpy, built, distinct
 from flypend.errors import InputError
 from flypend.flight.outcome import LEFT, Outcome
 from flypend.flight.request import Flight
@@ -175,7 +174,7 @@ def _sense(vehicle: Vehicle, plant: Plant, start: Numbers, drawn: Numbers) -> Ca
     return measure
 
 
-@cache
+@built(maxsize=None)
 def _compile(make: Callable[[], ca.Function]) -> Any:
     return as_numpy(make())
 

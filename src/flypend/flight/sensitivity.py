@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from flypend import errors, signals
 from flypend.compile.llvm import jit
+from flypend.compile.numeric import built
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.errors import InputError
@@ -165,7 +165,7 @@ def _fly_tangents(flight: Flight, gains: tuple[str, ...]) -> Flown:
     return out
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def _kernel(closed: Loop) -> jit.Native:
     """Return the kernel of the `closed` loop on (state, direction) (48,) and (parameters, their direction) (2 k,)."""
     law, k = closed.symbolic, len(closed.parameters)

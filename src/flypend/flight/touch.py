@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 
 from flypend.compile import problem
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.compile.program import lower
 from flypend.geometry import Numbers, dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension
@@ -141,7 +140,7 @@ class Touch(NamedTuple):
 Watch = Callable[[Any, Any, float], Touch | None]
 
 
-@lru_cache(maxsize=64)
+@built(maxsize=64)
 def watcher(vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None) -> Watch:
     """Return (before, after, period) → the first touch between two states; arguments as in `touching`."""
     if vehicle.mount == "gimbal" and floor is None:

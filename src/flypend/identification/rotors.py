@@ -6,12 +6,12 @@ instant, and its mean over any step.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
 
+from flypend.compile.numeric import built
 from flypend.geometry import Numbers
 from flypend.identification.model import places
 from flypend.plants.lag import symbolic_timing
@@ -46,7 +46,7 @@ def patterns(rotors: int) -> Any:
     return full[:, 1:]
 
 
-@lru_cache(maxsize=4)
+@built(maxsize=4)
 def _programs(rotors: int, count: int) -> tuple[ca.Function, ca.Function, ca.Function]:
     """Return programs of `rotors`, the second of which makes `count` holds, one after the other.
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.compile.numeric import built
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
 from flypend.geometry import E3, Numbers, Scalar, cross, dot, hat
@@ -245,7 +246,7 @@ def _solid(vehicle: Vehicle) -> dict[str, Any] | None:
     return {"rotors": vehicle.rotors_from_pivot.tolist(), **radii}
 
 
-@lru_cache(maxsize=8)
+@built(maxsize=8)
 def chart_function(names: tuple[str, ...]) -> ca.Function:
     """Return (ξ, numbers) → f and u of each wrench, ż, y·z, and p − p_ref, v, y, ẏ, z (15,) of the law in the chart.
 
@@ -290,7 +291,7 @@ class _Operations:
         return self.put("mul", [*above, inverse]) if above else inverse
 
 
-@lru_cache(maxsize=8)
+@built(maxsize=8)
 def _program(names: tuple[str, ...]) -> tuple[list[Any], list[int]]:
     """Return the wrenches, ż and y·z of the chart as operations [name, places, constant], and the places of these."""
     function = chart_function(names).slice("law", [0, 1], [0]).expand()

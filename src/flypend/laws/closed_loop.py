@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import casadi as ca
 import numpy as np
 
 from flypend import errors
+from flypend.compile.numeric import built
 from flypend.geometry import Numbers, Scalar
 from flypend.laws.bound import BoundLaw, Control
 from flypend.laws.guarantee import Guarantee
@@ -79,7 +79,7 @@ def symbolic_loop(
     return _symbolic_loop(vehicle, *_check(vehicle, law, parameters), lag)
 
 
-@lru_cache(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
+@built(maxsize=8)  # a run needs the same symbols for its kernel and for its signals
 def _symbolic_loop(vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool) -> SymbolicLoop:
     """The equations of motion under `bound`, with its signals and the rates of its Lyapunov functions."""
     t, s, p, control = _output(vehicle, bound, parameters, lag)
@@ -108,7 +108,7 @@ def _lyapunov(control: Control) -> dict[str, Scalar]:
     return dict(control.lyapunov) | ({"V": sum(control.lyapunov.values())} if control.lyapunov else {})
 
 
-@lru_cache(maxsize=8)
+@built(maxsize=8)
 def _output(
     vehicle: Vehicle, bound: BoundLaw, parameters: tuple[str, ...], lag: bool = False
 ) -> tuple[Scalar, Numbers, Numbers, Control]:
@@ -164,7 +164,7 @@ def close_loop(vehicle: Vehicle, law: Law | BoundLaw, *, lag: bool = False) -> C
     return _close_loop(vehicle, law.bind(vehicle), lag)
 
 
-@lru_cache(maxsize=8)  # what a theorem says of each of many starts takes the same
+@built(maxsize=8)  # what a theorem says of each of many starts takes the same
 def _close_loop(vehicle: Vehicle, bound: BoundLaw, lag: bool) -> ClosedLoop:
     loop = symbolic_loop(vehicle, bound, lag=lag)
     outputs = ca.vertcat(_stack(loop.wrench), *loop.signals.values())

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from flypend import errors
+from flypend.compile.numeric import builds
 from flypend.laws.bound import BoundLaw, Computer, Feedback, Guard
 from flypend.laws.gain import Gain, check_gains, table
 from flypend.laws.located import is_own
@@ -133,6 +134,7 @@ class Law(Feedback):
             self._bound[vehicle] = self._bind(vehicle)
         return self._bound[vehicle]
 
+    @builds
     def _bind(self, vehicle: Vehicle) -> BoundLaw:
         gains = self.gains_for(vehicle)
         prepared = {} if self.prepare is None else self.prepare(vehicle, gains)

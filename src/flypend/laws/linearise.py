@@ -18,6 +18,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
+from flypend.compile.numeric import builds
 from flypend.errors import InputError
 from flypend.geometry import E3, Numbers, Vector, cross, hat, project_tangent, rotation_from_vector, unit
 from flypend.laws.bound import BoundLaw
@@ -109,6 +110,7 @@ class Linearisation:
 
 
 @errors.named_arguments
+@builds
 def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) -> Linearisation:
     """Linearise the closed loop of `vehicle` under `law` about the equilibrium near `at`, at time 0.
 
@@ -145,6 +147,7 @@ def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) ->
     return Linearisation(at=state, A=A, acceleration=velocity[3:6])
 
 
+@builds
 def open_loop(vehicle: Vehicle, e3: E3Direction, at: State, wrench: Wrench) -> tuple[Numbers, Numbers]:
     """Return A (16, 16) and B (16, 4) of ξ̇ = A ξ + B (δf, δτ) about the equilibrium `at` of `vehicle` under `wrench`.
 

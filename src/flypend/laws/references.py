@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
+from flypend.compile.numeric import builds
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Scalar, Vector
 
@@ -50,6 +51,7 @@ def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.
     return lambda t: ca.DM(middle) + a * ca.vertcat(ca.sin(w * t), ca.sin(w * t) * ca.cos(w * t), 0)
 
 
+@builds
 def check_reference(reference: Any, field: str = "reference") -> None:
     """Raise InputError in `field` unless `reference` is None or a function of time that gives a position (3, 1)."""
     if reference is None:
@@ -68,6 +70,7 @@ def check_reference(reference: Any, field: str = "reference") -> None:
         raise InputError(field, f"{what}, of CasADi's functions", "one that gives NaN")
 
 
+@builds
 def sample(reference: Reference, t: Numbers) -> Numbers:
     """Return the positions (n, 3), m, of `reference` at times `t` (n,), s."""
     time = ca.SX.sym("t")

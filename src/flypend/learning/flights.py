@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -22,6 +21,7 @@ import numpy as np
 
 from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
+from flypend.compile.numeric import built
 from flypend.identification.model import ERROR, correct
 from flypend.laws.learned import FEATURES, HOVER, features, shares
 from flypend.learning.course import Course, Flown, Machines
@@ -59,7 +59,7 @@ class Kernels(NamedTuple):
     see: Stagewise  # (state, of the flight, errors) → features
 
 
-@lru_cache(maxsize=4)
+@built(maxsize=4)
 def kernels(rotors: int) -> Kernels:
     """Return the compiled steps of vehicles with so many `rotors`."""
     return Kernels(*map(stagewise, programs(rotors)))

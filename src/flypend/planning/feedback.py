@@ -14,7 +14,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
@@ -88,7 +88,7 @@ def _gains(vehicle: Vehicle, units: Units, states: Array, commands: Array, h: fl
     return whole * units.force / units.deviations(n)
 
 
-@lru_cache(maxsize=1)
+@built(maxsize=1)
 def _planes() -> ca.Function:
     y = ca.SX.sym("y", 3)
     return ca.Function("plane", [y], [plane(y)])
@@ -175,7 +175,7 @@ class Follower:
         return f.commands[k], self.stepped(state, rotors, f.commands[k], into, scales=self.scales), k
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def stepping(vehicle: Vehicle) -> Any:
     """Return (state, rotors, command, duration, forces, scales) → state and rotors (24 + n,) after a step of the plant.
 
@@ -211,7 +211,7 @@ class _Scaled:
         return ca.mtimes(ca.diag(ca.vertcat(thrust, moment, moment, moment)), ca.DM(self._vehicle.mixing()))
 
 
-@lru_cache(maxsize=4)
+@built(maxsize=4)
 def _deviations(rotors: int) -> tuple[Any, Any]:
     """Return the deviations from a nominal state, and from hover with any heading."""
     return as_numpy(deviation(rotors)), as_numpy(hovering(rotors))

@@ -17,12 +17,11 @@ and leans as wanted there. Thrust and attitude follow from it, as far as the rot
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import casadi as ca
 import numpy as np
 
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
+from flypend.compile.numeric import built
 from flypend.geometry import E3, cross, dot, norm, unit
 from flypend.model import State
 from flypend.model.state import SIZE
@@ -90,7 +89,7 @@ def styles(asked: Request) -> Array:
     return found
 
 
-@lru_cache(maxsize=8)
+@built(maxsize=8)
 def pumping(rotors: int) -> Stagewise:
     """Return the compiled guess (state, style, limits, timing, vehicle) → state after a stage, and command."""
     return stagewise(_pump(Stage(rotors)), shared=(1, 2, 3, 4))

@@ -14,13 +14,12 @@ the thrust hardly changes, only a f z + F is told, and what was learned before s
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.geometry import cross, hat
 from flypend.model import State, Vehicle
 from flypend.model.dynamics import gyroscopic_moment
@@ -80,7 +79,7 @@ class ModelError:
         self.forces = self._x[2:8] * self._weight
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def _told(vehicle: Vehicle) -> Any:
     """Return (state and rotor forces (24 + n,), own units) → momenta (9,), and rates (9 · 12,).
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any, Literal, NamedTuple, Unpack
 
 import casadi as ca
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.compile.llvm.stagewise import WIDTH
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.errors import InputError
 from flypend.geometry import E3, norm
 from flypend.laws import Computer, Controller, Law
@@ -372,7 +372,7 @@ class Pilot(Boards):
         return (found if found else None), asked, found.reason
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def _moving(reference: Reference) -> Any:
     """Return the function from time (s) to position, velocity and acceleration (9,) of `reference`."""
     t = ca.SX.sym("t")

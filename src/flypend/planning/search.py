@@ -6,13 +6,13 @@ import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from flypend import signals
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
+from flypend.compile.numeric import builds, built
 from flypend.model.state import SIZE
 from flypend.planning.constraints import begins_touching, broken
 from flypend.planning.dynamics import Array, Stage
@@ -49,6 +49,7 @@ def stages_of(horizon: float) -> tuple[int, float]:
     return stages, horizon / stages
 
 
+@builds
 def prepare(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
     programs_of(asked), pumping(asked.rotors)
@@ -218,7 +219,7 @@ def _dense(asked: Request, found: Found, horizon: float, samples: int) -> Any:
     return dense
 
 
-@lru_cache(maxsize=4)
+@built(maxsize=4)
 def _step(rotors: int) -> Stagewise:
     return stagewise(Stage(rotors).step(), shared=(2, 3), abreast=True)
 

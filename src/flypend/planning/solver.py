@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any, NamedTuple
 
 import casadi as ca
@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.compile.llvm.stagewise import lanes as some_lanes
+from flypend.compile.numeric import built
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import ATTITUDE, LEAST_ROOM, POSITION, ROD, Array, Stage
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, Barrier, Structure
@@ -48,7 +49,7 @@ class Programs:
     end: Stagewise
 
 
-@lru_cache(maxsize=64)
+@built(maxsize=64)
 def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
     """Return the compiled programs for machines with this many `rotors`, and `structure`, from the cache if possible.
 

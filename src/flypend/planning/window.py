@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -22,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from flypend import errors
+from flypend.compile.numeric import built
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm
 from flypend.model import State, Vehicle
@@ -270,7 +270,7 @@ def _numbers(
     return own
 
 
-@lru_cache(maxsize=1)
+@built(maxsize=1)
 def _locate() -> ca.Function:
     """Return (state, numbers) → the points that count, as rows (axis, u, v, s)."""
     state, numbers = ca.SX.sym("state", SIZE), ca.SX.sym("numbers", NUMBERS)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any, Protocol
 
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Scalar, Vector
 from flypend.model import Vehicle
@@ -100,7 +99,7 @@ class Mujoco:
         return controls, on_vehicle[:3], on_rod, on_vehicle[3:], joint
 
 
-@lru_cache(maxsize=64)
+@built(maxsize=64)
 def _compile_world(vehicle: Vehicle, plant: Plant) -> tuple[Any, Any]:
     made = (motors(vehicle, plant), surroundings(vehicle, plant))
     return tuple(None if function is None else as_numpy(function) for function in made)  # type: ignore[return-value]
@@ -144,7 +143,7 @@ class Actuation:
             self.engine.step(forces, duration / steps, wind)
 
 
-@lru_cache(maxsize=32)
+@built(maxsize=32)
 def _compile_rate_loop(vehicle: Vehicle, limits: bool, gain: float) -> Any:
     return as_numpy(rate_loop(vehicle, limits, gain))
 

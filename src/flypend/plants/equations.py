@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from flypend.compile.llvm.stagewise import single
+from flypend.compile.numeric import built
 from flypend.geometry import Numbers, Scalar
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench
@@ -52,7 +52,7 @@ class EquationsEngine:
         self.packed, self.rotors = step(self.packed, self.rotors, command, wind, timing)
 
 
-@lru_cache(maxsize=64)
+@built(maxsize=64)
 def _compile_step(vehicle: Vehicle, plant: Plant, windy: bool) -> Callable[..., Any]:
     return single(rotor_step(vehicle, plant, windy=windy))
 

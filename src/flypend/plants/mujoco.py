@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.compile.numeric import as_numpy
+from flypend.compile.numeric import as_numpy, built
 from flypend.errors import InputError
 from flypend.geometry import Matrix, Numbers, Vector, rotation_from_quat_xyzw
 from flypend.model import State, Vehicle
@@ -215,7 +215,7 @@ def rotation_of(quat_wxyz: Numbers) -> Matrix:
     return rotation_from_quat_xyzw(ca.vertcat(quat_wxyz[1:], quat_wxyz[0]))
 
 
-@lru_cache(maxsize=8)
+@built(maxsize=8)
 def _compile_view(rotors: int) -> Any:
     return as_numpy(from_mujoco(rotors))
 

@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from flypend.compile.numeric import builds
 from flypend.geometry import E3, Numbers
 from flypend.laws import BoundLaw
 from flypend.laws.bound import Computer
@@ -60,6 +61,7 @@ class Tremor(NamedTuple):
     axis: float
 
 
+@builds
 def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
     """Return `law` calmed near its reference until hover on the sensors of `plant` trembles little enough.
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
-from threading import RLock
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from flypend.compile.llvm import runge_kutta
-from flypend.compile.numeric import distinct
+from flypend.compile.numeric import builds, distinct
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import STATUS, Flown, Kernel, Progress, inputs_of
 from flypend.flight.kernels.ideal import IdealKernel, Moments, call, ideal_kernel
@@ -25,9 +24,6 @@ from flypend.model.state import SIZE, convert_packed
 from flypend.plants import Sampled
 from flypend.plants.loop import Loop
 
-# Expressions of CasADi share nodes, and two threads that build at once have crashed there: one builds at a time.
-building = RLock()
-
 
 def has_kernel(flight: Flight) -> bool:
     """Whether `flight` can be compiled, that is, has a symbolic law."""
@@ -39,12 +35,12 @@ def kernel_of(flight: Flight) -> IdealKernel | SampledKernel:
     return kernel_for(flight.loop, flight.criterion, flight.tolerances)
 
 
+@builds
 def kernel_for(loop: Loop, criterion: Criterion, exact: Tolerances) -> IdealKernel | SampledKernel:
     """Return the kernel of `loop` for `criterion`; in the ideal plant, with the method and precision of `exact`."""
-    with building:
-        if isinstance(loop.plant, Sampled):
-            return sampled_kernel(loop, criterion)
-        return ideal_kernel(loop, criterion, method=exact.method_for(loop.symbolic), precision=exact.precision)
+    if isinstance(loop.plant, Sampled):
+        return sampled_kernel(loop, criterion)
+    return ideal_kernel(loop, criterion, method=exact.method_for(loop.symbolic), precision=exact.precision)
 
 
 def fly_all(flight: Flight, *, workers: int | None = None, progress: Progress = lambda *_: None) -> Flown:

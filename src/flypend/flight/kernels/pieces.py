@@ -11,7 +11,6 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,7 +22,7 @@ from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
-from flypend.compile.numeric import aligned, as_numpy
+from flypend.compile.numeric import aligned, as_numpy, built
 from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
 from flypend.errors import InputError
@@ -45,7 +44,7 @@ from flypend.plants.plant import Sampled, Wind
 _GUSTY = Wind(gust_on_vehicle=1.0)
 
 
-@lru_cache(maxsize=4)  # a page asks twice, for machine code and for what goes with it
+@built(maxsize=4)  # a page asks twice, for machine code and for what goes with it
 def pieces_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
     """Return the flights of `loop` in pieces as programs, one at a time.
 
@@ -100,7 +99,7 @@ def pieces_kernel(loop: Loop, criterion: Criterion) -> PiecesKernel:
     return PiecesKernel(loop, function, room)
 
 
-@lru_cache(maxsize=16)
+@built(maxsize=16)
 def _compile(loop: Loop, criterion: Criterion) -> tuple[Any, int]:
     problem = pieces_problem(loop, criterion)
     code, room = jit.build_object(*write_sampled(problem, 1), native()), np.zeros(1, dtype=np.int64)

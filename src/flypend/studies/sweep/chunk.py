@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import hashlib
-from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from flypend.compile.numeric import builds, built
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS
 from flypend.flight.ensemble import fly_many
-from flypend.flight.kernels import building, kernel_of, plant_numbers
+from flypend.flight.kernels import kernel_of, plant_numbers
 from flypend.flight.request import Flight
 from flypend.laws import Controller
 from flypend.laws.own import fingerprint
@@ -28,7 +28,7 @@ FLOATS = (
 )  # fmt: skip
 
 
-@lru_cache(maxsize=4)
+@built(maxsize=4)
 def _study_of(text: str, program: str) -> Study:
     """Return the study in the TOML string `text`, which must compile to `program`: the file of its law may change.
 
@@ -47,17 +47,14 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 
     Raises InputError if the study compiles to a program other than the caller's (`program`, a digest).
     """
-    with building:
-        made = _study_of(text, program)
+    made = _study_of(text, program)
     rows = made.rows(number)
     return fly_range(made, rows.start, rows.stop)
 
 
 def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
     """Return the columns of runs `first` to `last` (exclusive) of `study`, flown on one core."""
-    with building:
-        drawn = design(study, first, last)
-        requests = flights(study, drawn, first)
+    drawn, requests = _asked(study, first, last)
     parts = [fly_many(flight, workers=1) for flight in requests]
     judged = [flown.columns for flown in parts]
     columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
@@ -68,6 +65,13 @@ def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
     out |= {name: columns[name].astype(np.float32) for name in FLOATS}
     out |= {"success": columns["success"], "cause": cause}
     return out | ({"final": np.concatenate([flown.final.packed() for flown in parts])} if study.final else {})
+
+
+@builds
+def _asked(study: Study, first: int, last: int) -> tuple[Design, list[Flight]]:
+    """Return runs `first` to `last` (exclusive) of `study`, and their requests."""
+    drawn = design(study, first, last)
+    return drawn, flights(study, drawn, first)
 
 
 def flights(study: Study, drawn: Design, first: int = 0) -> list[Flight]:

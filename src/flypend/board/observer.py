@@ -107,10 +107,8 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], period, L, vehicle.weight)
     rest = unknown - scale * thrust
     # F_v + F_b, and D without its component along the rod.
-    limit, split = (
-        computer.force_limit * vehicle.weight,
-        split_force(rest[:3], vehicle.l * cross(rest[3:], s.y), vehicle),
-    )
+    limit = computer.force_limit * vehicle.weight
+    split = split_force(rest[:3], vehicle.l * cross(rest[3:], s.y), vehicle)
     forces = [shortened(force, limit) for force in split]
     kept = {"begun": 1, "momenta": following, "known": known, "unknown": unknown, "thrust": thrust, "told": told}
     outputs = ca.cse([ca.densify(RECORD.join(kept)), ca.densify(ca.vertcat(*forces)), scale])

@@ -359,6 +359,7 @@ def test_on_a_hub_the_training_is_another():
     hub = usual(VEHICLE.replace(mount="hub"), seed=3, updates=7)
     assert usual(VEHICLE, seed=3) == Training(Course(VEHICLE), seed=3)
     assert (hub.seed, hub.updates) == (3, 7)
+    assert usual(VEHICLE, updates=0).updates == 0  # imitation alone
     assert hub.course.arms > Course(VEHICLE).arms
 
 

@@ -86,6 +86,12 @@ def test_weaker_rotors_move_the_machine_as_heavier_masses_do(factor):
     np.testing.assert_allclose(ours.final.packed(), theirs.final.packed(), rtol=0, atol=1e-8)  # roundoff, amplified
 
 
+def test_a_sweep_beyond_the_range_is_refused_before_anything_flies(monkeypatch):
+    monkeypatch.setattr(trials, "fly_many", lambda *_, **__: pytest.fail("flew"))
+    with pytest.raises(fp.InputError, match=r"^plant\.delay: expected at most 0\.5 s"):
+        fp.trial(fp.vehicle("hehn2011"), plant=fp.Plant(delay=0.45), runs=2)
+
+
 def test_a_vehicle_that_the_law_refuses_is_refused():
     with pytest.raises(fp.InputError):
         fp.trial(HEHN.replace(mass=500.0), runs=2)

@@ -12,7 +12,9 @@ import numpy as np
 
 from flypend import errors
 from flypend.envs.draws import Draws
+from flypend.geometry import apply, transpose
 from flypend.model import State, Vehicle
+from flypend.model.mount import least_margin
 
 Goal = Callable[[Any, Any], tuple[Any, Any]]
 
@@ -164,7 +166,7 @@ def _begin_hanging(draws: Draws, vehicle: Vehicle) -> Begin:
 
 
 def _begin_at_any_angle(draws: Draws, vehicle: Vehicle) -> Begin:
-    """Begin in 30 of 100 worlds as `_begin_hanging`; in the others with the rod at any angle.
+    """Begin in 30 of 100 worlds as `_begin_hanging`, on a hub also where a part is in the way; else at any angle.
 
     That angle is π u^1.5, u uniform, and the rod at most as fast as a fall from upright. The number of the goal is the
     time, s, by which it must be up. Within 26° of upright it is 0.3, so that a rod that falls is lost at once; else 3,
@@ -174,8 +176,10 @@ def _begin_at_any_angle(draws: Draws, vehicle: Vehicle) -> Begin:
     angle, turn = np.pi * draws.share() ** 1.5, draws.between(0.0, 2 * np.pi)
     y = ca.vertcat(ca.sin(angle) * ca.cos(turn), ca.sin(angle) * ca.sin(turn), ca.cos(angle))
     fastest = ca.sqrt(2 * vehicle.g / vehicle.l * (1 - y[2]))
-    y_dot = ca.if_else(hangs, state.y_dot, fastest * draws.tangent(y, 1.0))
-    y = ca.if_else(hangs, state.y, y)
+    if vehicle.mount == "hub":
+        within, _, _ = least_margin(apply(transpose(state.R), y), 0.0, vehicle)
+        hangs = ca.logic_or(hangs, within < 0)
+    y_dot, y = ca.if_else(hangs, state.y_dot, fastest * draws.tangent(y, 1.0)), ca.if_else(hangs, state.y, y)
     return Begin(State(**(vars(state) | {"y": y, "y_dot": y_dot})), ca.if_else(y[2] > 0.9, 0.3, 3.0))
 
 

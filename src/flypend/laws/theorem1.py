@@ -24,7 +24,7 @@ from flypend.model import State, Vehicle, Wrench, equations_of_motion, lie_deriv
 BETA_GUARD = Guard(
     signal="velocity_error",
     threshold=1e-5,
-    reason="the law divides by the velocity error of the thrust axis, which reaches zero (beta in weqn)",
+    reason="the law divides by the velocity error of the thrust axis, which reaches zero",  # beta in (weqn)
 )
 
 # The paper's gains K, with the values of its fifth experiment as defaults.

@@ -96,10 +96,12 @@ def usual(
     """
     if bands:
         check_bands(vehicle)
+    if updates is None:
+        updates = 1200 if vehicle.mount == "hub" else 1500
     if vehicle.mount != "hub":
-        return Training(Course(vehicle, bands=bands, sensors=sensors), seed=seed, updates=updates or 1500)
+        return Training(Course(vehicle, bands=bands, sensors=sensors), seed=seed, updates=updates)
     course = Course(vehicle, excursion=0.3, arms=40.0, bands=bands, sensors=sensors)
-    return Training(course, seed=seed, hidden=(96, 96), rate=2e-3, updates=updates or 1200)
+    return Training(course, seed=seed, hidden=(96, 96), rate=2e-3, updates=updates)
 
 
 class Entry(NamedTuple):

@@ -135,6 +135,9 @@ def trial(
     flight = Flight(vehicle=vehicle, law=bound, starts=random.in_frame(bound.e3), duration=10.0, plant=world)
     if not has_kernel(flight) and runs is None:
         flight = flight.replace(starts=flight.starts[:STEPPED_RUNS])
+    worlds = {
+        name: {factor: world_with(factor) for factor in FACTORS} for name, world_with in swept(vehicle, world).items()
+    }  # before anything flies: one may be out of range
     if fly_many(flight, workers=workers).rate < 0.9:
         flight = flight.replace(duration=30.0)
     again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
@@ -144,10 +147,9 @@ def trial(
     knocked = fly_many(sampled, workers=workers)
     progress("knocks", 1, 1)
     high = is_up(knocked)
-    worlds = swept(vehicle, world)
     cells = [(name, factor) for name in worlds for factor in FACTORS]
     counts = for_each(
-        flight, lambda cell: count_of(flight.through(worlds[cell[0]](cell[1]))), cells,
+        flight, lambda cell: count_of(flight.through(worlds[cell[0]][cell[1]])), cells,
         lambda done, total: progress(f"sweep of {cells[done - 1][0]}", done, total),
     )  # fmt: skip
     sweeps: dict[str, dict[float, Count]] = {name: {} for name in worlds}

@@ -28,6 +28,7 @@ SOURCE = Path(flypend.__file__).parent
 ORDER = [
     "signals",
     "registry",
+    "building",
     "errors",
     "geometry",
     "palette",

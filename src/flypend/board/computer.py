@@ -21,7 +21,8 @@ from flypend.board.program import (
     remembering,
     trimming,
 )
-from flypend.compile.numeric import as_numpy, built
+from flypend.building import built
+from flypend.compile.numeric import as_numpy
 from flypend.geometry import Numbers
 from flypend.laws import Controller
 from flypend.plants.loop import Loop

@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from flypend.building import built
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
-from flypend.compile.numeric import aligned, built
+from flypend.compile.numeric import aligned
 from flypend.compile.problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError

@@ -12,8 +12,8 @@ import casadi as ca
 from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE, finish, found_length, lead_rotors, rescale
 from flypend.board.program import advance_unmeasured, board, initial_memory, parts
+from flypend.building import built
 from flypend.compile.c99 import reads
-from flypend.compile.numeric import built
 from flypend.compile.program import LIBRARY, LIBRARY_2, Program, lower
 from flypend.compile.record import Record
 from flypend.compile.routine import Routine, lower_calls

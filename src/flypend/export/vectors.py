@@ -11,8 +11,8 @@ import numpy as np
 from flypend.board.believed import Believed
 from flypend.board.command import law_command
 from flypend.board.program import board, initial_memory
+from flypend.building import built
 from flypend.compile.c99 import Precision
-from flypend.compile.numeric import built
 from flypend.export import records
 from flypend.export.interface import reference_numbers, shift_path, wrench_from_stream
 from flypend.laws import BoundLaw

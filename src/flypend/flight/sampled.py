@@ -15,8 +15,9 @@ import numpy as np
 from flypend import signals
 from flypend.board.command import idle_command
 from flypend.board.computer import Estimating, FlightComputer, SteppedBoard
+from flypend.building import built
 from flypend.compile.llvm.random import PER_TICK, normals
-from flypend.compile.numeric import as_numpy, built, distinct
+from flypend.compile.numeric import as_numpy, distinct
 from flypend.errors import InputError
 from flypend.flight.outcome import LEFT, Outcome
 from flypend.flight.request import Flight

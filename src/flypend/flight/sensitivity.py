@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors, signals
+from flypend.building import built
 from flypend.compile.llvm import jit
-from flypend.compile.numeric import built
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.errors import InputError

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
+from flypend.building import built
 from flypend.compile import problem
-from flypend.compile.numeric import as_numpy, built
+from flypend.compile.numeric import as_numpy
 from flypend.compile.program import lower
 from flypend.geometry import Numbers, dot, unit
 from flypend.model import State, Vehicle, Wrench, rod_tension

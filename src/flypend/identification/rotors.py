@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import built
+from flypend.building import built
 from flypend.geometry import Numbers
 from flypend.identification.model import places
 from flypend.plants.lag import symbolic_timing

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.compile.numeric import built
+from flypend.building import built
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
 from flypend.geometry import E3, Numbers, Scalar, cross, dot, hat

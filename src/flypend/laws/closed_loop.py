@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.compile.numeric import built
+from flypend.building import built
 from flypend.geometry import Numbers, Scalar
 from flypend.laws.bound import BoundLaw, Control
 from flypend.laws.guarantee import Guarantee

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from flypend import errors
-from flypend.compile.numeric import builds
+from flypend.building import builds
 from flypend.laws.bound import BoundLaw, Computer, Feedback, Guard
 from flypend.laws.gain import Gain, check_gains, table
 from flypend.laws.located import is_own

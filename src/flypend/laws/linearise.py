@@ -18,7 +18,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.compile.numeric import builds
+from flypend.building import builds
 from flypend.errors import InputError
 from flypend.geometry import E3, Numbers, Vector, cross, hat, project_tangent, rotation_from_vector, unit
 from flypend.laws.bound import BoundLaw

@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.compile.numeric import builds
+from flypend.building import builds
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Scalar, Vector
 

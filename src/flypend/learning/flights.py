@@ -20,8 +20,8 @@ import casadi as ca
 import numpy as np
 
 from flypend import signals
+from flypend.building import built
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
-from flypend.compile.numeric import built
 from flypend.identification.model import ERROR, correct
 from flypend.laws.learned import FEATURES, HOVER, features, shares
 from flypend.learning.course import Course, Flown, Machines

@@ -14,7 +14,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy, built
+from flypend.building import built
+from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE

@@ -20,8 +20,8 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
+from flypend.building import built
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
-from flypend.compile.numeric import built
 from flypend.geometry import E3, cross, dot, norm, unit
 from flypend.model import State
 from flypend.model.state import SIZE

@@ -19,7 +19,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy, built
+from flypend.building import built
+from flypend.compile.numeric import as_numpy
 from flypend.geometry import cross, hat
 from flypend.model import State, Vehicle
 from flypend.model.dynamics import gyroscopic_moment

@@ -19,8 +19,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from flypend import errors
+from flypend.building import built
 from flypend.compile.llvm.stagewise import WIDTH
-from flypend.compile.numeric import as_numpy, built
+from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.geometry import E3, norm
 from flypend.laws import Computer, Controller, Law

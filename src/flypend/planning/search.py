@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from flypend import signals
+from flypend.building import builds, built
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
-from flypend.compile.numeric import builds, built
 from flypend.model.state import SIZE
 from flypend.planning.constraints import begins_touching, broken
 from flypend.planning.dynamics import Array, Stage

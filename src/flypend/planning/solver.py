@@ -16,9 +16,9 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from flypend.building import built
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, stagewise
 from flypend.compile.llvm.stagewise import lanes as some_lanes
-from flypend.compile.numeric import built
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import ATTITUDE, LEAST_ROOM, POSITION, ROD, Array, Stage
 from flypend.planning.inequalities import EFFORT, HIGH, LOW, SHARED, Barrier, Structure

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from flypend import errors
-from flypend.compile.numeric import built
+from flypend.building import built
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm
 from flypend.model import State, Vehicle

@@ -7,7 +7,8 @@ from typing import Any, Protocol
 import casadi as ca
 import numpy as np
 
-from flypend.compile.numeric import as_numpy, built
+from flypend.building import built
+from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Scalar, Vector
 from flypend.model import Vehicle

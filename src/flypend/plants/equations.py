@@ -8,8 +8,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.building import built
 from flypend.compile.llvm.stagewise import single
-from flypend.compile.numeric import built
 from flypend.geometry import Numbers, Scalar
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.air import air_wrench

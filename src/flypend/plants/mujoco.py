@@ -30,7 +30,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.compile.numeric import as_numpy, built
+from flypend.building import built
+from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.geometry import Matrix, Numbers, Vector, rotation_from_quat_xyzw
 from flypend.model import State, Vehicle

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from flypend.compile.numeric import builds
+from flypend.building import builds
 from flypend.geometry import E3, Numbers
 from flypend.laws import BoundLaw
 from flypend.laws.bound import Computer

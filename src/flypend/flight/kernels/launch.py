@@ -7,8 +7,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from flypend.building import builds
 from flypend.compile.llvm import runge_kutta
-from flypend.compile.numeric import builds, distinct
+from flypend.compile.numeric import distinct
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.flown import STATUS, Flown, Kernel, Progress, inputs_of
 from flypend.flight.kernels.ideal import IdealKernel, Moments, call, ideal_kernel

@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.board.believed import Believed
+from flypend.building import built
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
-from flypend.compile.numeric import aligned, as_numpy, built
+from flypend.compile.numeric import aligned, as_numpy
 from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
 from flypend.errors import InputError

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from flypend.compile.numeric import builds, built
+from flypend.building import builds, built
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS
 from flypend.flight.ensemble import fly_many

@@ -127,7 +127,7 @@ class Problem:
     stages: int
     timing: Array  # of a stage, (4, lanes); see `plants.lag.step_timing`
     vehicle: Array  # numbers of the machines, (k, lanes); see `dynamics.Units.numbers`
-    numbers: Array  # of the inequalities, (j, lanes); see `inequalities.Structure.numbers`
+    numbers: Array  # of the inequalities, (j, lanes); see `inequalities.Structure.slices`
     places: Array | None = None  # (stages + 1, 3, lanes): where the pivot is to be, with a path; else the origin
 
     @classmethod

@@ -72,10 +72,6 @@ class Structure:
         """Whether some are kept by a cost that grows: those about what the machine is not to touch."""
         return self.mounted is not None or self.gates > 0 or self.box
 
-    def exact(self, rotors: int) -> int:
-        """Return how many inequalities, the first ones, can always be kept: limits of `rotors` rotors and the ball."""
-        return 2 * rotors + 1
-
 
 def inequalities(
     state: ca.SX, command: ca.SX, shared: ca.SX, numbers: ca.SX, middle: ca.SX, structure: Structure
@@ -198,11 +194,14 @@ def _apart(a: ca.SX, b: ca.SX) -> ca.SX:
 
 
 class Barrier:
-    """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared."""
+    """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared.
+
+    The first `exact` of the `inequalities` can always be kept: limits of the rotors, and the ball.
+    """
 
     def __init__(self, stage: Stage, structure: Structure) -> None:
         n = stage.rotors
-        self._stage, self._state, self._exact = stage, stage.before, structure.exact(n)
+        self._stage, self._state, self.exact = stage, stage.before, 2 * n + 1
         self._moves = [ca.SX.sym("delta", MOTION + n), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
         delta, upsilon, epsilon = self._moves
         shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", [*structure.slices.values()][-1].stop)
@@ -234,7 +233,7 @@ class Barrier:
         of an exact inequality is g, that of another the larger of g and the trial slack: what lies above g is the
         violation. What g itself lacks to 0, whatever its slack, is the lack.
         """
-        k, g = self._exact, self._g
+        k, g = self.exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
         wished = ca.sumsqr(self._own) / 2
         merit = self._cost + wished + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
@@ -287,7 +286,7 @@ class Barrier:
 
         The shares (2,) are the largest: max(−Δs/s) of inequalities that are not exact, and max(−Δz/z).
         """
-        s, z, k = self._slack, self._dual, self._exact
+        s, z, k = self._slack, self._dual, self.exact
         given = [ca.SX.sym(f"move_{i}", move.numel()) for i, move in enumerate(self._moves)]
         along = sum(ca.mtimes(J, move) for J, move in zip(self._J, given, strict=True))
         ds = along + self._g - s

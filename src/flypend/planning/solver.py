@@ -66,7 +66,7 @@ def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
     return Programs(
         layout=layout,
         inequalities=barrier.inequalities,
-        exact=structure.exact(rotors),
+        exact=barrier.exact,
         end_size=barrier.end_size,
         summary=3 + (structure.cost != ""),
         linearised=each(stage.linearised(gap, layout.slopes(A, B)), shared=(3, 4)),

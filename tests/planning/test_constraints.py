@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.planning.constraints import Keywords, Motion, gather
+from flypend.planning.constraints import Keywords, Motion, broken, gather
 from flypend.planning.dynamics import Stage
 from flypend.planning.inequalities import inequalities
 from flypend.planning.problem import request
@@ -76,6 +76,12 @@ def test_what_is_named_is_kept_by_value():
     with pytest.raises(fp.InputError, match=r"^clearance: expected one value"):
         gather("plan", kept, {"clearance": 0.02})
     assert gather("plan", kept, {"floor": -1.0}).given == {"floor": -1.0, "clearance": 0.01}
+
+
+def test_a_lean_is_judged_where_rounding_lifts_the_rod_above_upright():
+    packed = fp.State(y=[(0, 0, 1), (1, 0, 0)]).packed()
+    packed[0, 20] = np.nextafter(1, 2)  # whose arccosine does not exist
+    assert broken(packed, np.ones((2, 4)), HEHN, fp.Constraints(lean=0.2)) == "the rod leans 1.37 rad (78.54°) too far"
 
 
 def test_a_box_that_changes_later_changes_no_walls():

@@ -251,7 +251,7 @@ def broken(packed: Array, rotor_forces: Array, vehicle: Vehicle, kept: Constrain
             return f"the box is left by {out:.3g} m"
     if kept.speed is not None and (over := float(np.max(norm(state.x_dot))) - kept.speed) > tolerance:
         return f"the speed is exceeded by {over:.3g} m/s"
-    if kept.lean is not None and (over := float(np.max(np.arccos(state.y[:, 2]))) - kept.lean) > tolerance:
+    if kept.lean is not None and (over := float(np.arccos(np.min(state.y[:, 2]))) - kept.lean) > tolerance:
         return f"the rod leans {angle(over)} too far"
     for window in kept.windows:
         if (room := float(np.min(window.room(state, vehicle)))) < 0:

@@ -8,6 +8,8 @@ curvature of g itself the part is kept that is convex whatever the state: that o
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
 
 import casadi as ca
 
@@ -27,7 +29,7 @@ END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot
 SHARED, EFFORT, LOW, HIGH, YAW, BASE = 0, 1, 2, 3, 4, 5
 # Numbers of constraints and costs of one's own: the target, m, units of length, time and force, and the root of the
 # weight of a stage.
-OWN = 7
+OWN, OF_FORCE = 7, 5
 # Numbers of another end than hover upright: velocity, thrust axis, angular velocity, rod, its rate, and whether forces
 # are those of hover.
 OTHER_END = 16
@@ -50,37 +52,25 @@ class Structure:
     end: bool = False  # whether the end is another than hover upright
     mounted: Vehicle | None = None  # a vehicle whose mount limits the rod; None for a gimbal
 
-    @property
-    def numbers(self) -> int:
-        """Length of the numbers: up to `hard`, reach of the rod and corners of the box, speed, lowest y₃, `soft` ones.
+    @cached_property
+    def slices(self) -> dict[str, slice]:
+        """Where the numbers of a plan are, by what they are for; only what it obeys has numbers.
 
-        These are the gates, the weight of being too near, and the margin of the mount.
+        Those of "speed" and "lean" are the limit and the lowest y₃; those of "soft", which are the last, the weight of
+        being too near and the margin of the mount.
         """
-        return self.hard + WALLS * self.box + self.speed + self.lean + NUMBERS * self.gates + 2 * self.soft
-
-    @property
-    def of_own(self) -> int:
-        """Place of the numbers of one's own functions, after `BASE` and those of another end."""
-        return BASE + OTHER_END * self.end
-
-    @property
-    def hard(self) -> int:
-        """Place of the numbers of the inequalities."""
-        return self.of_own + OWN * (self.keep + self.cost != "")
-
-    @property
-    def of_force(self) -> int | None:
-        """Place of the unit of force, N, for one's own functions; None without them."""
-        return None if self.hard == self.of_own else self.of_own + 5
+        lengths = {
+            "base": BASE, "end": OTHER_END * self.end, "own": OWN * (self.keep + self.cost != ""),
+            "box": WALLS * self.box, "speed": self.speed, "lean": self.lean, "gates": NUMBERS * self.gates,
+            "soft": 2 * self.soft,
+        }  # fmt: skip
+        after = accumulate(lengths.values())
+        return {name: slice(stop - n, stop) for (name, n), stop in zip(lengths.items(), after, strict=True) if n}
 
     @property
     def soft(self) -> bool:
         """Whether some are kept by a cost that grows: those about what the machine is not to touch."""
         return self.mounted is not None or self.gates > 0 or self.box
-
-    def exact(self, rotors: int) -> int:
-        """Return how many inequalities, the first ones, can always be kept: limits of `rotors` rotors and the ball."""
-        return 2 * rotors + 1
 
 
 def inequalities(
@@ -89,18 +79,16 @@ def inequalities(
     """Return g (k, 1), every entry of which is to be ≥ 0.
 
     A `state` (24 + n, 1) ends with rotor forces, and `command` (n, 1) are those commanded; `shared` is e, the squared
-    radius of the ball about its `middle` (3, 1), and `numbers` are those of `Structure.numbers`.
+    radius of the ball about its `middle` (3, 1), and `numbers` are in `Structure.slices`.
     """
-    s, place = State.symbolic(state[:SIZE]), structure.hard
+    s, slices = State.symbolic(state[:SIZE]), structure.slices
     off = s.x - middle if structure.path else s.x
     g = [command - numbers[LOW], numbers[HIGH] - command, shared - dot(off, off)]
-    place += WALLS * structure.box
     if structure.speed:
-        g.append(numbers[place] - dot(s.x_dot, s.x_dot) / numbers[place])
-        place += 1
+        fastest = numbers[slices["speed"]]
+        g.append(fastest - dot(s.x_dot, s.x_dot) / fastest)
     if structure.lean:
-        g.append(s.y[2] - numbers[place])
-        place += 1
+        g.append(s.y[2] - numbers[slices["lean"]])
     if structure.keep:
         g.append(_own(state, numbers, structure, structure.keep))
     return ca.vertcat(*g)
@@ -110,12 +98,12 @@ def residuals(state: ca.SX, numbers: ca.SX, structure: Structure) -> ca.SX:
     """Return the values (k, 1) of the cost of one's own, none without one: half their squares are that of a stage."""
     if not structure.cost:
         return ca.SX(0, 1)
-    return numbers[structure.hard - 1] * _own(state, numbers, structure, structure.cost)
+    return numbers[structure.slices["own"]][-1] * _own(state, numbers, structure, structure.cost)
 
 
 def _own(state: ca.SX, numbers: ca.SX, structure: Structure, function: str) -> ca.SX:
     """Return the values (k, 1) of a `function` as CasADi writes it at a `state` in own units."""
-    own = numbers[structure.of_own : structure.hard]
+    own = numbers[structure.slices["own"]]
     target, (length, time, force) = own[:3], ca.vertsplit(own[3:6])
     s = State.symbolic(state[:SIZE])
     packed = State(
@@ -131,8 +119,7 @@ def nearness(state: ca.SX, about: ca.SX, numbers: ca.SX, structure: Structure, m
     It is in units of `SOFT`. The squares cost the last but one of `numbers`; the last is the margin that the mount is
     to keep, in rod lengths or weights.
     """
-    first = structure.numbers - 2 - NUMBERS * structure.gates
-    gates = [numbers[first + NUMBERS * i : first + NUMBERS * (i + 1)] for i in range(structure.gates)]
+    gates = ca.vertsplit(numbers[structure.slices["gates"]], NUMBERS) if structure.gates else []
     near = [beyond(state, numbers, structure), *(-passing(state, about, gate) for gate in gates)]
     if structure.mounted is not None:
         near.append(numbers[-1] - _least_margin(state, about, structure.mounted, machine))
@@ -143,7 +130,7 @@ def beyond(state: ca.SX, numbers: ca.SX, structure: Structure) -> ca.SX:
     """Return how far pivot and far end of the rod are beyond each wall of the box, (k, 1), in rod lengths."""
     if not structure.box:
         return ca.SX(0, 1)
-    reach, low, high = ca.vertsplit(numbers[structure.hard : structure.hard + WALLS], [0, 1, 4, 7])
+    reach, low, high = ca.vertsplit(numbers[structure.slices["box"]], [0, 1, 4, WALLS])
     x, y = state[POSITION], state[18:21]
     return ca.vertcat(*(ca.vertcat(low - point, point - high) for point in (x, x + reach * y)))
 
@@ -207,14 +194,17 @@ def _apart(a: ca.SX, b: ca.SX) -> ca.SX:
 
 
 class Barrier:
-    """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared."""
+    """Programs of a `stage` with a `structure`; deviations δ of the state, υ of the command, ε of what is shared.
+
+    The first `exact` of the `inequalities` can always be kept: limits of the rotors, and the ball.
+    """
 
     def __init__(self, stage: Stage, structure: Structure) -> None:
         n = stage.rotors
-        self._stage, self._state, self._exact = stage, stage.before, structure.exact(n)
+        self._stage, self._state, self.exact = stage, stage.before, 2 * n + 1
         self._moves = [ca.SX.sym("delta", MOTION + n), ca.SX.sym("upsilon", n), ca.SX.sym("epsilon")]
         delta, upsilon, epsilon = self._moves
-        shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", structure.numbers)
+        shared, numbers = ca.SX.sym("shared"), ca.SX.sym("numbers", [*structure.slices.values()][-1].stop)
         here, command, place = retract(stage.before, delta), stage.command + upsilon, ca.SX.sym("place", 3)
         self._g = inequalities(here, command, shared + epsilon, numbers, place, structure)
         self._J = [ca.jacobian(self._g, move) for move in self._moves]
@@ -243,7 +233,7 @@ class Barrier:
         of an exact inequality is g, that of another the larger of g and the trial slack: what lies above g is the
         violation. What g itself lacks to 0, whatever its slack, is the lack.
         """
-        k, g = self._exact, self._g
+        k, g = self.exact, self._g
         slack = ca.vertcat(g[:k], ca.fmax(g[k:], self._slack[k:]))
         wished = ca.sumsqr(self._own) / 2
         merit = self._cost + wished + self._weight * ca.sumsqr(self._near) / 2 - self._mu * ca.sum1(ca.log(slack))
@@ -296,7 +286,7 @@ class Barrier:
 
         The shares (2,) are the largest: max(−Δs/s) of inequalities that are not exact, and max(−Δz/z).
         """
-        s, z, k = self._slack, self._dual, self._exact
+        s, z, k = self._slack, self._dual, self.exact
         given = [ca.SX.sym(f"move_{i}", move.numel()) for i, move in enumerate(self._moves)]
         along = sum(ca.mtimes(J, move) for J, move in zip(self._J, given, strict=True))
         ds = along + self._g - s

@@ -62,8 +62,7 @@ class Request:
     @property
     def constrained(self) -> bool:
         """Whether there are inequalities beyond those of the machine."""
-        its = self.structure
-        return its.box or its.speed or its.lean or its.gates > 0 or its.keep != ""
+        return self.structure != self.unconstrained().structure
 
     @property
     def begins_touching(self) -> bool:
@@ -87,8 +86,8 @@ class Request:
         """The same within the limits of the machine alone; what comes of it is still held against `kept`."""
         its = self.structure
         free = Structure(path=its.path, cost=its.cost, end=its.end, mounted=its.mounted)
-        kept = self.numbers[: free.hard]
-        return replace(self, structure=free, numbers=np.append(kept, self.numbers[-2:]) if its.mounted else kept)
+        numbers = [self.numbers[its.slices[name]] for name in free.slices]
+        return replace(self, structure=free, numbers=np.concatenate(numbers))
 
     @property
     def waits(self) -> bool:
@@ -149,19 +148,17 @@ def request(
     keep, cost = _own(kept, objective, {"start": (start, forces), "target": (end, np.full(n, units.force))}, n)
     apart, windows, points = kept.clearance or 0.0, kept.windows, kept.points
     route = (start, *(State(x=point, y=E3) for point in points), end)
-    gates = [through(each, vehicle, route, goal, apart) for each in windows]
-    numbers += [number for gate in (*gates, *along(points, vehicle, ends, goal)) for number in gate]
-    mounted = None if vehicle.mount == "gimbal" else vehicle
-    if mounted is not None or windows or len(points) or walls is not None:
-        numbers += [0.0, apart / units.length]
+    gates = [*(through(each, vehicle, route, goal, apart) for each in windows), *along(points, vehicle, ends, goal)]
+    structure = Structure(
+        box=walls is not None, speed=speed is not None, lean=lean is not None, path=kept.path is not None,
+        gates=len(gates), keep=keep, cost=cost, end=bool(other),
+        mounted=None if vehicle.mount == "gimbal" else vehicle,
+    )  # fmt: skip
+    soft = [0.0, apart / units.length] if structure.soft else []
     packed = start.packed()
     packed[:3] -= goal
     begin = np.append(packed, forces) / units.states(n)
-    structure = Structure(
-        box=walls is not None, speed=speed is not None, lean=lean is not None, path=kept.path is not None,
-        gates=len(windows) + len(points), keep=keep, cost=cost, end=bool(other), mounted=mounted,
-    )  # fmt: skip
-    return Request(vehicle, units, weights, goal, end, begin, kept, structure, np.array(numbers))
+    return Request(vehicle, units, weights, goal, end, begin, kept, structure, np.concatenate([numbers, *gates, soft]))
 
 
 def end_of(path: Any, duration: Any, target: Any) -> Any:

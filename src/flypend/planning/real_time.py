@@ -17,7 +17,7 @@ from flypend.model import Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Array, Units
 from flypend.planning.feedback import AS_MODELLED, Feedback, Follower, regulator
-from flypend.planning.inequalities import SHARED
+from flypend.planning.inequalities import OF_FORCE, SHARED
 from flypend.planning.problem import Request
 from flypend.planning.result import Plan
 from flypend.planning.solver import Problem, Settings, Solver, one_lane, programs_of
@@ -133,8 +133,9 @@ class RealTime:
         hover = hover_under(outside, self._m, self.commands.shape[1])
         solver.aim(numbers[:, None], hover[:, None], self._scale / thrust)
         self._scale = thrust
-        if (place := self._asked.structure.of_force) is not None:
-            solver.insist(place, self._asked.numbers[place] / thrust, 0)
+        if (own := self._asked.structure.slices.get("own")) is not None:
+            force = own.start + OF_FORCE
+            solver.insist(force, self._asked.numbers[force] / thrust, 0)
         solver.restart(stages, state[:, None])
         farther = solver.shared[0] > been**2
         solver.insist(SHARED, self._of_excursion * (1.0 if farther else SUNK), 0)

@@ -32,7 +32,6 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.dynamics import Array, Units
 from flypend.planning.fallback import CHARGES, LONGEST, Fallback, Schedule
-from flypend.planning.inequalities import WALLS
 from flypend.planning.model_error import ModelError
 from flypend.planning.multistart import SOFT_LAST, Found, work
 from flypend.planning.planner import plan_within
@@ -369,7 +368,7 @@ class Pilot(Boards):
         if its.soft:
             asked.numbers[-2] = SOFT_LAST if its.mounted or its.gates else WALL
         if its.box:
-            asked.numbers[its.hard + 1 : its.hard + WALLS] += MARGIN * np.repeat([1, -1], 3)
+            asked.numbers[its.slices["box"]][1:] += MARGIN * np.repeat([1, -1], 3)
         return (found if found else None), asked, found.reason
 
 

@@ -66,7 +66,7 @@ def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
     return Programs(
         layout=layout,
         inequalities=barrier.inequalities,
-        exact=structure.exact(rotors),
+        exact=barrier.exact,
         end_size=barrier.end_size,
         summary=3 + (structure.cost != ""),
         linearised=each(stage.linearised(gap, layout.slopes(A, B)), shared=(3, 4)),
@@ -127,7 +127,7 @@ class Problem:
     stages: int
     timing: Array  # of a stage, (4, lanes); see `plants.lag.step_timing`
     vehicle: Array  # numbers of the machines, (k, lanes); see `dynamics.Units.numbers`
-    numbers: Array  # of the inequalities, (j, lanes); see `inequalities.Structure.numbers`
+    numbers: Array  # of the inequalities, (j, lanes); see `inequalities.Structure.slices`
     places: Array | None = None  # (stages + 1, 3, lanes): where the pivot is to be, with a path; else the origin
 
     @classmethod

@@ -32,9 +32,10 @@ RIM = 24  # corners of the polygons that stand for discs
 STEEP = 1e-3  # least sine between the normal and what is up in the window
 TINY = 1e-12
 
-# Centre, axes; half widths, slopes and half depth of the neck; reach, and radius and height of the body.
-NUMBERS = 3 + 9 + 2 + 2 + 1 + 3
-ROWS = 10
+# Numbers of a gate: centre, axes; half widths, slopes and half depth of the neck; reach, and radius and height of the
+# body.
+CENTRE, AXES, HALF, SLOPES, DEPTH, BODY = slice(0, 3), slice(3, 12), slice(12, 14), slice(14, 16), 16, slice(17, 20)
+NUMBERS = BODY.stop
 SLOPE = 4.0  # k: about 63° between the funnel and the normal, far away
 ROOM = 1.3  # factor of a slope that start or end needs
 NECK = 0.15  # rod lengths: the funnel's half depth beyond the wall's, for what is between two stages
@@ -164,12 +165,12 @@ def _edges(states: State, vehicle: Vehicle) -> tuple[Array, Array, Array]:
 
 
 def passing(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
-    """Return g (ROWS, 1), of which all are ≥ 0 in the funnel of a window; in rod lengths, as distances near its edge.
+    """Return g (10, 1), of which all are ≥ 0 in the funnel of a window; in rod lengths, as distances near its edge.
 
     Of the rod in a `state` (24 + n, 1) both ends and the worst point between count, which is found in the state `about`
     which derivatives are taken, of the body the points farthest out. For the `numbers` (NUMBERS, 1) see `through`.
     """
-    half, slope, depth = numbers[12:14], numbers[14:16], numbers[16]
+    half, slope, depth = numbers[HALF], numbers[SLOPES], numbers[DEPTH]
 
     def room(axis: int, point: ca.SX) -> ca.SX:
         beyond = ca.fmax(0, point[2] ** 2 - depth**2)
@@ -180,18 +181,18 @@ def passing(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
 
 def _points(state: ca.SX, about: ca.SX, numbers: ca.SX) -> list[tuple[int, ca.SX]]:
     """Return pairs (axis, point about the centre along the axes) of the points that count."""
-    axes = ca.reshape(numbers[3:12], 3, 3).T
-    reach, radius, height = numbers[17], numbers[18], numbers[19]
+    axes, slopes = ca.reshape(numbers[AXES], 3, 3).T, numbers[SLOPES]
+    reach, radius, height = ca.vertsplit(numbers[BODY])
     s, held = State.symbolic(state[:SIZE]), State.symbolic(about[:SIZE])
 
     def seen(point: ca.SX) -> ca.SX:
-        return ca.mtimes(axes, point - numbers[:3])
+        return ca.mtimes(axes, point - numbers[CENTRE])
 
     pivot, tip = seen(s.x), seen(s.x + reach * s.y)
     first, run = seen(held.x), reach * ca.mtimes(axes, held.y)
     middle, found = seen(s.x + height * s.z), []
     for axis in (0, 1):
-        share = _worst(first, run, axis, numbers[14 + axis])
+        share = _worst(first, run, axis, slopes[axis])
         e = axes[axis, :].T
         level = e - dot(e, s.z) * s.z
         out = radius * ca.mtimes(axes, level) / ca.sqrt(dot(level, level) + LEVEL)
@@ -261,12 +262,12 @@ def _numbers(
         packed = state.packed()
         packed[:3] -= target
         for axis, *point in np.array(_locate()(packed / units.of_state, own)):
-            out, beyond = point[int(axis)] ** 2 - own[12 + int(axis)] ** 2, point[2] ** 2 - own[16] ** 2
+            out, beyond = point[int(axis)] ** 2 - own[HALF][int(axis)] ** 2, point[2] ** 2 - own[DEPTH] ** 2
             if out > 0 >= beyond and not np.allclose(state.x, gate.centre):
                 raise InputError(name, "walls that start, target and waypoints are clear of", gate.centre.tolist())
             if out > 0:
                 slopes[int(axis)] = max(slopes[int(axis)], ROOM * out / beyond)
-    own[14:16] = slopes
+    own[SLOPES] = slopes
     return own
 
 

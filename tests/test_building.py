@@ -1,5 +1,6 @@
 """One thread at a time builds expressions."""
 
+import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
@@ -17,15 +18,21 @@ def fly_on_sensors(vehicle):
     )
 
 
+def lean(t, state, vehicle, *, k=2.0):
+    return fp.Wrench(vehicle.weight, -k * state.omega)
+
+
 @pytest.mark.parametrize(
     "call",
     [
         lambda vehicle: fp.linearise(fp.laws.lqr(), vehicle),
         lambda vehicle: fp.simulate(vehicle, fp.laws.repaired(), fp.random_starts(1, 1)[0], 0.2),
         fly_on_sensors,
+        lambda vehicle: fp.laws.from_function(lean),
+        lambda vehicle: fp.simulate(vehicle, fp.laws.lqr(), fp.State(y=(0.6, 0, 0.8)), 0.1).to_html(None, live=True),
         lambda vehicle: fp.plan(vehicle, fp.State(y=[0.6, 0, 0.8]), duration=1.0),
     ],
-    ids=["linearise", "simulate", "fly on sensors", "plan"],
+    ids=["linearise", "simulate", "fly on sensors", "wrap a function", "write a page", "plan"],
 )
 def test_expressions_are_built_by_one_thread_at_a_time(call):
     # CasADi crashes, once in a hundred times, if two threads build: what a thread builds, it builds under the lock.
@@ -45,3 +52,28 @@ def test_expressions_are_built_by_one_thread_at_a_time(call):
     with ThreadPoolExecutor(1) as pool:
         pool.submit(watched).result()
     assert not without
+
+
+def test_a_process_that_is_forked_while_another_thread_builds_builds_too():
+    program = """
+import multiprocessing, threading, time
+from flypend.building import building, builds
+
+held = threading.Event()
+
+def hold():
+    with building:
+        held.set()
+        time.sleep(0.3)
+
+@builds
+def job(number):
+    return number + 1
+
+threading.Thread(target=hold).start()
+held.wait()
+with multiprocessing.get_context("fork").Pool(1) as pool:
+    print(*pool.map_async(job, [6]).get(timeout=20))
+"""
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+    assert told.stdout == "7\n", told.stderr

@@ -679,6 +679,9 @@ def test_failed_flights_are_kept_and_fly_again_to_the_same_end(call, tmp_path):
     flown = fp.compare(fp.vehicle("hehn2011"), [fp.laws.lqr()], starts, 1.0)
     number = int(files[0].stem.rpartition("-")[2])
     np.testing.assert_allclose(again.packed[-1], flown.ensembles["lqr"].final[number].packed(), atol=1e-9)
+    _, told, _ = call("compare", "--law", "lqr", "--runs", "2", "--seed", "9", "--duration", "1")
+    left = list((tmp_path / "compare-out" / "failed").iterdir())
+    assert f"{len(left)} failed flights in " in told  # and none of the comparison before
 
 
 def test_a_floor_is_an_option_of_what_flies(call, tmp_path):

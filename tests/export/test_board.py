@@ -119,6 +119,12 @@ def test_it_flies_as_the_kernel_does(law, plant, limit):
     assert flown.law == f"{law.name}-c"
 
 
+def test_a_machine_whose_rotors_push_less_than_asked_flies_its_code():
+    machine = VEHICLE.replace(thrust_scale=0.93)
+    in_c, law = (fp.simulate(machine, law, START, 0.2) for law in (compiled(LAW, machine), LAW))
+    np.testing.assert_allclose(in_c.x, law.x, atol=1e-9)
+
+
 def test_nothing_of_the_flight_computer_is_left_in_python(monkeypatch):
     def no(*_):
         raise AssertionError("Python computed a command")

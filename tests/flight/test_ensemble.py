@@ -294,6 +294,13 @@ def test_what_a_single_run_refuses_is_refused(starts):
         simulate_ensemble(VEHICLE, inverted(), starts[:2], -1.0, workers=1, plant="ideal")
 
 
+def test_nothing_to_fly_and_nobody_to_fly_it_are_refused(starts):
+    with pytest.raises(fp.InputError, match=r"^starts: expected at least one"):
+        simulate_ensemble(VEHICLE, inverted(), starts[:0], 0.1)
+    with pytest.raises(fp.InputError, match=r"^workers: "):
+        simulate_ensemble(VEHICLE, inverted(), starts[:2], 0.1, workers=0)
+
+
 def test_what_is_refused_in_another_process_is_told_as_here(starts, small_tasks):
     with pytest.raises(fp.InputError, match=r"^duration: expected a finite number > 0 s, got -1$"):
         simulate_ensemble(VEHICLE, inverted(), starts, -1.0, workers=2, plant="ideal")

@@ -1,5 +1,7 @@
 """`thrust_scale`: rotors that push more or less than asked, as the law believes and as the plant has it."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -40,6 +42,13 @@ def test_the_air_acts_on_the_force_that_is_there():
     assert commanded.rotor_drag * np.sqrt(force) * speed == pytest.approx(true / SCALE)
     assert isinstance(commanded, Air)
     assert np.allclose(np.array(commanded.body_drag) * SCALE, air.body_drag)
+
+
+@pytest.mark.parametrize("text", [fp.Vehicle.to_mjcf, fp.Vehicle.to_urdf, fp.Vehicle.to_sdf])
+def test_other_engines_hover_at_the_force_that_a_law_asks_for(text):
+    machine = fp.vehicle("hehn2011").replace(thrust_scale=SCALE)
+    masses = map(float, re.findall(r'mass(?: value)?(?:="|>)([0-9.e-]+)', text(machine)))
+    assert sum(masses) * machine.gravity == pytest.approx(machine.commanded().weight, rel=1e-3)
 
 
 def test_a_plan_and_a_bound_law_take_the_commanded_vehicle():

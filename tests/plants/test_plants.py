@@ -113,8 +113,8 @@ def final(run):
         (lambda: Plant(mismatch={"mass": 0}), "plant.mismatch.mass: expected a finite number > 0, got 0"),
         (lambda: Plant(rate_loop_rate=-1), "plant.rate_loop_rate: expected a finite number > 0 Hz, got -1"),
         (lambda: Plant(rate_loop_gain=0), "plant.rate_loop_gain: expected a finite number > 0 1/s, got 0"),
-        (lambda: Plant(seed=-1), "plant.seed: expected an integer >= 0, got -1"),
-        (lambda: Plant(seed=0.5), "plant.seed: expected an integer >= 0, got 0.5"),
+        (lambda: Plant(seed=-1), "plant.seed: expected an integer from 0 to 2⁶², got -1"),
+        (lambda: Plant(seed=0.5), "plant.seed: expected an integer from 0 to 2⁶², got 0.5"),
         (lambda: Plant().replace(rates=50), "plant.rates: expected one of engine, limits"),
         (lambda: Plant().replace(rate=-50), "plant.rate: expected a finite number > 0 Hz, got -50"),
         (

@@ -40,6 +40,17 @@ def test_every_world_is_within_the_bands():
     assert len(seen) == 20
 
 
+def test_units_of_commanded_force_draw_the_same_worlds():
+    told = MINE.replace(thrust_scale=0.9)  # what flies is told in units of the force that is asked for
+    raw, flown = (worlds_within(vehicle, Sampled(), seed=3) for vehicle in (told, told.commanded()))
+    for one, same in zip(raw.values(), flown.values(), strict=True):
+        assert one.mismatch == pytest.approx(same.mismatch)
+        assert np.allclose(one.strength, same.strength)
+        assert (one.delay, one.sag) == (same.delay, same.sag)
+    flight = Flight(vehicle=told, law=fp.laws.inverted(), starts=fp.random_starts(9, 1), duration=0.1)
+    assert len(fly_within(flight, seed=3)) == 9
+
+
 def test_worlds_follow_the_seed_and_keep_the_rest_of_the_plant():
     plant = Sampled(mismatch={"mass": 1.1})
     one, same, other = (worlds_within(MINE, plant, seed)["drawn 1"] for seed in (1, 1, 2))

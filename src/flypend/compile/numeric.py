@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from threading import Lock, local
+from threading import local
 from typing import Any
 
 import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from flypend.building import building
+
 LINE = 64  # bytes of a cache line
-_lock = Lock()  # CasADi hands out the memory of a function
 
 
 def as_numpy(function: ca.Function) -> Callable[..., Any]:
@@ -31,7 +32,7 @@ def as_numpy(function: ca.Function) -> Callable[..., Any]:
 
     def call(*values: Any) -> Any:
         if not hasattr(own, "call"):
-            with _lock:
+            with building:  # CasADi hands out the memory of a function
                 own.call = _buffer(function)
         return own.call(*values)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.board.program import known_to_computer
+from flypend.building import builds
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
 from flypend.compile.record import Record
@@ -231,6 +232,7 @@ def library(
 _library = lru_cache(maxsize=16)(Library)
 
 
+@builds
 def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "double") -> Controller:
     """The exported flight computer of `law` on `vehicle`, compiled here, as a controller.
 
@@ -252,6 +254,7 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", getattr(law, "name", repr(law)))
     errors.one_of("precision", precision, PRECISIONS)
+    vehicle = vehicle.commanded()
     bound = law.bind(vehicle)
     code = library(bound, vehicle, precision)
     path = _path(bound.reference)

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.building import builds
 from flypend.compile.c99 import PRECISIONS, REAL, SCRATCH, Precision, call, function, literal
 from flypend.compile.program import Program, lower
 from flypend.compile.scratch import scratch
@@ -61,6 +62,7 @@ OWN = (  # of `SETTINGS`, by their own names
 
 
 @errors.named_arguments
+@builds
 def export_plan(plan: Plan, folder: str | Path, *, precision: Precision = "float") -> None:
     """Write `plan` with its tracking gains as flypend_plan.h and flypend_plan.c, C99 without allocation.
 

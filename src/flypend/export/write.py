@@ -15,6 +15,7 @@ import numpy as np
 
 from flypend import errors, signals
 from flypend.board.command import usable_lead
+from flypend.building import builds
 from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
 from flypend.compile.record import Record
 from flypend.errors import InputError
@@ -41,6 +42,7 @@ TOLERANCE: dict[Precision, float] = {"double": 1e-12, "float": 1e-4}
 
 @errors.named_arguments
 @signals.defer()
+@builds
 def export_c(
     law: Law | BoundLaw,
     vehicle: Vehicle,

@@ -204,6 +204,8 @@ def fly_many(
     Raises InputError if the engine lacks what the flight requires.
     """
     errors.one_of("engine", engine, ENGINES)
+    if workers is not None:
+        errors.integer("workers", workers, 1)
     if engine == "kernel" and has_kernel(flight):
         flown = fly_all(flight, workers=workers, progress=progress)
         columns = judge(

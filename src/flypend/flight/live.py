@@ -13,6 +13,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.building import builds
 from flypend.compile.llvm import runge_kutta, sampled
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS, REDUCTIONS
@@ -53,6 +54,7 @@ RAW = -15  # deflate without a header, which browsers call "deflate-raw"
 PERIOD = 0.002  # s between two rows of a flight through the ideal plant
 
 
+@builds
 def live_data(flight: Flight | None) -> dict[str, Any]:
     """Return what the page of a live `flight` holds beside its replay: `offer` and `engine`.
 

@@ -150,6 +150,8 @@ class Flight:
     def __post_init__(self) -> None:
         if len(self.starts.batch_shape) > 1:
             raise InputError("starts", "a State with one leading batch axis", f"shape {self.starts.batch_shape}")
+        if 0 in self.starts.batch_shape:
+            raise InputError("starts", "at least one", "none")
         put = partial(object.__setattr__, self)
         put("vehicle", self.vehicle.commanded())
         put("law", bound_to(self.vehicle, self.law))

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.building import builds
 from flypend.errors import InputError
 from flypend.geometry import Numbers
 from flypend.laws.bound import Computer
@@ -141,6 +142,7 @@ class Controller(Tunable):
 
 
 @errors.named_arguments
+@builds
 def from_function(
     function: Callable[..., Any],
     *,

@@ -25,6 +25,9 @@ from flypend.model.state import FLIP, E3Direction
 from flypend.model.table import on_base
 from flypend.model.urdf import model_sdf, model_urdf
 
+# By which power of s the bands shrink of a machine whose rotors push s times as hard as commanded.
+SCALED = {"mass": 1.0, "bob_mass": 1.0, "inertia": 1.0, "thrust_scale": 1.0, "rotor_drag": 0.5}
+
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -205,7 +208,8 @@ class Vehicle:
         """Return the vehicle in units of commanded force, in which its `thrust_scale` is 1.
 
         A machine whose rotors push s times as hard as commanded moves like one with masses, inertias, friction and drag
-        divided by s, under the same commands. Laws, flights and plans use that machine; wind is in the same unit.
+        divided by s, under the same commands. Laws, flights, plans and models for other engines use that machine; wind
+        is in the same unit.
         """
         s = self.thrust_scale
         if s == 1.0:
@@ -216,7 +220,8 @@ class Vehicle:
             air = Air(**root, lift=air.lift / s, body_drag=[value / s for value in air.body_drag])
         shared = ("mass", "bob_mass", "rod_inertia", "rod_spin_inertia", "inertia", "pivot_damping", "pivot_friction")
         changes = {name: getattr(self, name) / s for name in shared}
-        return replace(self, **changes, air=air, thrust_scale=1.0, bands=None)
+        bands = {name: np.array(band) / s ** SCALED.get(name, 0.0) for name, band in (self.bands or {}).items()}
+        return replace(self, **changes, air=air, thrust_scale=1.0, bands=bands or None)
 
     def mixing(self, e3: E3Direction = "up") -> Numbers:
         """Matrix (4, n) from rotor forces to (thrust, moment) in the body frame of `e3` ("up" or "down").
@@ -299,7 +304,7 @@ class Vehicle:
         InputError
             If the timestep is not positive.
         """
-        return model_xml(self, timestep=timestep, lag=self.rotor_lag if lag else 0.0, limits=True)
+        return model_xml(self.commanded(), timestep=timestep, lag=self.rotor_lag if lag else 0.0, limits=True)
 
     def to_urdf(self) -> str:
         """Return the machine as URDF, for ROS, Gazebo, Drake, Isaac, PyBullet and MuJoCo. z up, SI units.
@@ -311,7 +316,7 @@ class Vehicle:
         rotors push along z. URDF does not describe rotors: limits, torques, lag and mount are in a comment. Shapes are
         for display only, and do not collide.
         """
-        return model_urdf(self)
+        return model_urdf(self.commanded())
 
     def to_sdf(self) -> str:
         """Return the machine as SDF 1.8, for Gazebo and Drake: a model to be included in a world. z up, SI units.
@@ -321,7 +326,7 @@ class Vehicle:
         Limits, torques, lag and mount are in a comment, as in `to_urdf`. Shapes are for display only, and do not
         collide.
         """
-        return model_sdf(self)
+        return model_sdf(self.commanded())
 
     @classmethod
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from flypend import errors
-from flypend.building import built
+from flypend.building import builds, built
 from flypend.compile.llvm.stagewise import WIDTH
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
@@ -73,6 +73,7 @@ MOST_LOST = 2
 
 
 @errors.named_arguments
+@builds
 def nmpc(
     vehicle: Vehicle | None = None,
     *,

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from flypend import errors
 from flypend.board.computer import FlightComputer, SteppedBoard
+from flypend.building import builds
 from flypend.errors import InputError
 from flypend.geometry import Numbers
 from flypend.laws import BoundLaw, Computer, Controller, Law, inverted
@@ -91,6 +92,7 @@ def for_plans(law: BoundLaw, latency: float) -> BoundLaw:
 
 
 @errors.named_arguments
+@builds
 def track(plan: Plan, *, latency: float = 0.0, otherwise: Law | None = None) -> Controller:
     """Return a controller that flies `plan` from time 0 and then hovers at its target.
 

@@ -37,7 +37,7 @@ LEAST_RATE = 0.01  # Hz; a period of so many steps (`schedule.PLANT_STEP`) still
 def check_seed(field: str, seed: object) -> None:
     """Raise InputError unless `seed` is an integer from 0 to 2⁶²; messages begin with `field`."""
     if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) <= 2**62:
-        raise InputError(field, "an integer >= 0", repr(seed))
+        raise InputError(field, "an integer from 0 to 2⁶²", repr(seed))
 
 
 @errors.named_arguments

@@ -56,7 +56,7 @@ def write_comparison(
 ) -> None:
     """Write report.md, report.json (with `settings`), comparison.pdf and .png of `comparison` into the folder `out`.
 
-    `failed`, the run files of failed flights by name, go into the folder `failed` inside it.
+    `failed`, the run files of failed flights by name, replace those in the folder `failed` inside it.
     """
     from flypend.pictures.studies import comparison_figure
 
@@ -67,6 +67,9 @@ def write_comparison(
         for name, run in (failed or {}).items():
             (folder / "failed").mkdir(exist_ok=True)
             (folder / "failed" / f"{name}.toml").write_text(run_text(run, Path(out) / "failed"), encoding="utf-8")
+    for path in Path(out, "failed").glob("*-[0-9]*.toml"):  # of an earlier comparison
+        if path.stem not in (failed or {}):
+            path.unlink()
 
 
 def ladder_rows(ladder: Ladder) -> list[list[str]]:

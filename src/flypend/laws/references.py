@@ -51,11 +51,14 @@ def lemniscate(size: float = 1.0, rate: float = 1.0, center: Any = (0.0, 0.0, 0.
     return lambda t: ca.DM(middle) + a * ca.vertcat(ca.sin(w * t), ca.sin(w * t) * ca.cos(w * t), 0)
 
 
-@builds
 def check_reference(reference: Any, field: str = "reference") -> None:
     """Raise InputError in `field` unless `reference` is None or a function of time that gives a position (3, 1)."""
-    if reference is None:
-        return
+    if reference is not None:
+        _try_reference(reference, field)
+
+
+@builds
+def _try_reference(reference: Any, field: str) -> None:
     what = "a function of time that gives a position (3,), such as laws.references.hover((0, 0, 1))"
     if not callable(reference):
         raise InputError(field, what, repr(reference)[:80])

@@ -9,10 +9,10 @@ import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from pathlib import Path
-from threading import RLock
 from types import ModuleType
 from typing import Any
 
+from flypend.building import building
 from flypend.errors import InputError, one_of, only_known
 from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_names
 from flypend.laws.learned import learned, policy
@@ -41,7 +41,6 @@ ONNX, LEARNED = ".onnx", ".npz"
 PLACE = "file.py:function, module:function or a file .onnx or .npz"
 PLACES = ("function", "keep", "cost")  # entries of a law's table that name a function in a file or module
 PLANNED = ("objective", "target")  # what the law "plan" has beside constraints
-_loading = RLock()  # threads of a sweep load one file at once, and a law may load another
 EXPECTED = f"a Law, a Controller, a function that makes one, or {FUNCTION}"
 
 
@@ -286,7 +285,7 @@ def _file(name: str, folder: Path, key: str) -> ModuleType:
     title = f"flypend_law_{path.stem}"
     module = ModuleType(title)
     module.__file__ = str(path)
-    with _loading:
+    with building:  # threads of a sweep load one file at once, and a law may load another
         sys.modules[title] = module  # the dataclass decorator looks its module up here
         try:  # reread every time: Python's bytecode cache would miss a second edit within one second
             exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)  # noqa: S102 (a law of the user's own)

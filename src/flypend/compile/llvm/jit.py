@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
 from pathlib import Path
-from threading import Lock
 from typing import Any
 
 import casadi
 import llvmlite.binding as llvm
 import numpy
 
+from flypend.building import building
 from flypend.compile import cache
 from flypend.compile.llvm.loops import link
 from flypend.compile.llvm.target import Target, native
@@ -25,7 +25,6 @@ from flypend.signals.waiting import call_in_thread
 ABOVE = frozenset(("export", "paper", "settings", "studies", "pictures", "report", "lab", "cli"))
 _ROOT = Path(__file__).parents[2]
 _names = iter(range(1 << 62))
-_lock = Lock()
 
 
 def source_files() -> dict[str, tuple[int, int, int]]:
@@ -75,7 +74,7 @@ class Native:
     def __init__(self, code: bytes, name: str, arguments: tuple[Any, ...]) -> None:
         self._made_of = (code, name, arguments)
         builder = llvm.JITLibraryBuilder().add_object_img(code).add_current_process().export_symbol(name)
-        with _lock:
+        with building:
             self._library = builder.link(_jit(), f"flypend{next(_names)}")
         self._call = ctypes.CFUNCTYPE(None, *arguments)(self._library[name])
 

@@ -602,6 +602,28 @@ def test_it_stops_scrubs_and_begins_again(visit, run):
     until(page, "tick => flypend.live().tick < tick", tick)
 
 
+def test_a_piece_that_arrives_after_a_pause_leaves_the_time_where_it_was_put(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().tick > 100")
+    time_after = page.evaluate(
+        """() => new Promise((resolve) => {
+            const post = Worker.prototype.postMessage;
+            Worker.prototype.postMessage = function (message, ...rest) {
+                post.call(this, message, ...rest);
+                if (message.kind !== "advance") return;
+                Worker.prototype.postMessage = post;
+                document.body.dispatchEvent(new KeyboardEvent("keydown", { key: " ", code: "Space", bubbles: true }));
+                const { tick } = flypend.live();
+                flypend.seek(0.05);
+                const look = () => (flypend.live().tick > tick ? resolve(flypend.time()) : setTimeout(look, 10));
+                look();
+            };
+        })"""
+    )
+    assert time_after == pytest.approx(0.05)
+
+
 def test_a_page_that_was_hidden_goes_on_where_it_was(visit, run):
     """A hidden tab is given no frames: the time that it sleeps is not flown when it wakes."""
     page = visit(run)

@@ -106,10 +106,13 @@ export class Viewer {
     });
   }
 
-  /** The first flight has grown: go to its end, show its last `span` seconds, and in the plots too if it is `time` for that. */
+  /**
+   * The first flight has grown: go to its end, unless it is paused, show its last `span` seconds, and in the plots too if
+   * it is `time` for that.
+   */
   grown(span, time) {
-    const [flight] = this.flights;
-    Object.assign(this.clock, { start: flight.start, end: flight.end, time: flight.end });
+    const [flight] = this.flights, { clock } = this;
+    Object.assign(clock, { start: flight.start, end: flight.end, time: clock.playing ? flight.end : clock.time });
     this.stage?.grow(span, time);
     if (time) {
       this.#plot(plots(this.flights, flight.end - span));

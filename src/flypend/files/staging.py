@@ -15,12 +15,12 @@ from flypend.errors import InputError
 
 def check_writable(out: str | Path) -> None:
     """Raise InputError unless `out` is, or can be created as, a writable folder. Leaves the file system unchanged."""
-    tried = Path(out)
-    before = _beside(tried).stat() if _beside(tried).is_dir() else None
-    _open(tried).rmdir()
+    beside = _beside(Path(out))
+    before = beside.stat() if os.path.isdir(beside) else None  # noqa: PTH112 (as below)
+    _open(Path(out)).rmdir()
     if before is not None:
         with suppress(PermissionError):  # whoever may write to a folder of somebody else may not set its times
-            os.utime(_beside(tried), ns=(before.st_atime_ns, before.st_mtime_ns))
+            os.utime(beside, ns=(before.st_atime_ns, before.st_mtime_ns))
 
 
 def write_texts(out: str | Path, texts: Mapping[str, str]) -> None:
@@ -69,7 +69,7 @@ def _open(out: Path) -> Path:
 
 
 def _beside(out: Path) -> Path:
-    return out if out.is_dir() else out.absolute().parent
+    return out if os.path.isdir(out) else out.absolute().parent  # noqa: PTH112 (which raises for a name too long)
 
 
 def _check_free(target: Path, out: Path) -> None:

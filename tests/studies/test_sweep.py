@@ -192,12 +192,13 @@ def test_one_thread_at_a_time_builds_expressions(tmp_path, monkeypatch):
 
         return call
 
-    monkeypatch.setattr(flown, "_study_of", watched(flown._study_of))
+    monkeypatch.setattr(flown, "study", watched(flown.study))
     monkeypatch.setattr(flown, "flights", watched(flown.flights))
     monkeypatch.setattr(launch, "ideal_kernel", watched(launch.ideal_kernel))
     fp.sweep(SHORT | {"chunk": 3}, tmp_path / "one.zarr", workers=4)
-    # A study holds a flight, whose kernel is asked for inside.
-    assert len(most) > 3 * fp.study(SHORT).runs // 3 - 3
+    # Each chunk of three makes its flights and asks for their kernel; a study holds a flight, whose kernel is asked for
+    # inside.
+    assert len(most) >= 2 * (fp.study(SHORT).runs // 3)
     assert max(most) <= 2
 
 

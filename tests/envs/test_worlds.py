@@ -566,6 +566,9 @@ def test_what_has_been_flown_is_a_run(tmp_path):
         world.step(action)
     run = world.trajectory()
     assert run.t[-1] == pytest.approx(0.2)
+    forces, (x, y, _) = run.rotor_forces, world.worlds.env.vehicle.rotor_positions.T
+    assert np.allclose(run.thrust, forces.sum(axis=1))
+    assert np.allclose(run.moment[:, :2], np.stack([forces @ y, -forces @ x], axis=1))
     assert np.array_equal(run.packed[-1], world.worlds.states[0, :24])
     run.to_html(tmp_path / "a.html")
     assert (tmp_path / "a.html").stat().st_size > 1e5

@@ -27,20 +27,20 @@ SECONDS, DURATION, WANTED = 60, 30.0, 0.95
 FACTORS = ("mass", "bob_mass", "rod_length", "rod_inertia", "drag_ratio", "rotor_lag")
 
 
-def rate(believed, true, plant, scale, starts):
+def rate(nominal, true, plant, scale, starts):
     """Return the share of the starts from which the inverted law, which believes in a vehicle, flies the true one.
 
     `scale` is the true thrust scale, which `plant.strength` leaves out. The inertia is off by one factor, of its roll
     and pitch moments.
     """
-    wrong = {name: getattr(true, name) / value for name in FACTORS if (value := getattr(believed, name))}
-    wrong["inertia"] = float(np.mean(np.diag(true.inertia)[:2] / np.diag(believed.inertia)[:2]))
-    strength = tuple(scale / believed.thrust_scale * np.array(plant.strength))
-    moved = true.pivot_offset - believed.pivot_offset
+    wrong = {name: getattr(true, name) / value for name in FACTORS if (value := getattr(nominal, name))}
+    wrong["inertia"] = float(np.mean(np.diag(true.inertia)[:2] / np.diag(nominal.inertia)[:2]))
+    strength = tuple(scale / nominal.thrust_scale * np.array(plant.strength))
+    moved = true.pivot_offset - nominal.pivot_offset
     world = plant.replace(
         sensors="mocap", noise=None, wind=None, mismatch=wrong, strength=strength, pivot_offset=moved,
     )  # fmt: skip
-    return fp.simulate_ensemble(believed, fp.laws.inverted(), starts, DURATION, plant=world).success
+    return fp.simulate_ensemble(nominal, fp.laws.inverted(), starts, DURATION, plant=world).success
 
 
 def flown(k, seed, count):

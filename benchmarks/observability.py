@@ -39,7 +39,7 @@ SUITES_SHOWN = ("mocap", "onboard")
 ONLY = {"mocap": {"joints' zeros"}, "onboard": {"markers askew", "rod's markers off", "age of the poses"}}  # not there
 
 
-class Believed:
+class Nominal:
     """A vehicle whose rod and bob differ by the ratios `longer` and `heavier`, less 1."""
 
     def __init__(self, vehicle, longer, heavier):
@@ -59,7 +59,7 @@ def equations(vehicle, suite):
     packed, wrench, rate = ca.SX.sym("s", SIZE), ca.SX.sym("w", 4), ca.SX.sym("r", 4)
     errors = {name: ca.SX.sym("e", size) for name, (size, _) in KNOWN.items()}
     driven = ca.SX.sym("d", 9)  # accelerations of vehicle and bob, and of the turn, that drive the state
-    s, believed = State.symbolic(packed), Believed(vehicle, errors["rod's length"], errors["bob's mass"])
+    s, nominal = State.symbolic(packed), Nominal(vehicle, errors["rod's length"], errors["bob's mass"])
     acting = wrench - errors["delay of commands"] * rate
     thrust = (1 + errors["thrust"]) * acting[0]
     largest = vehicle.rotor_limits[1] * np.max(np.abs(vehicle.mixing()[1]))
@@ -68,7 +68,7 @@ def equations(vehicle, suite):
     M, m = vehicle.M, vehicle.m
     on_vehicle = M / (M + m) * wind - across + M * driven[:3]
     on_bob = m / (M + m) * wind + across + m * driven[3:6]
-    rates = disturbed_motion(s, Wrench(thrust, moment), believed, "up", Disturbance(on_vehicle, on_bob))
+    rates = disturbed_motion(s, Wrench(thrust, moment), nominal, "up", Disturbance(on_vehicle, on_bob))
     turning = rates.omega_dot + driven[6:]
     motion = ca.vertcat(rates.x_dot, rates.x_ddot, ca.vec(rates.R_dot.T), turning, rates.y_dot, rates.y_ddot)
     age, tilt = errors["age of the poses"], errors["tilt of the frame"]

@@ -173,7 +173,7 @@ def python_of(version: str) -> str | None:
     return None
 
 
-def installed(python: str, wheel: Path, folder: Path) -> Path:
+def is_installed(python: str, wheel: Path, folder: Path) -> Path:
     """Return the Python of an environment in `folder` with `wheel` and its dependencies; one that is there is kept."""
     own = folder / "bin" / "python"
     if not own.exists():
@@ -194,7 +194,7 @@ def main(wheel: Path, folder: Path) -> None:
             continue
         begin = time.monotonic()
         with TemporaryDirectory() as home:
-            machine = Machine(installed(python, wheel, folder / version), whole, Path(home) / "cache")
+            machine = Machine(is_installed(python, wheel, folder / version), whole, Path(home) / "cache")
             (Path(home) / "cache").mkdir(mode=0o700)
             for page, steps in journeys().items():
                 place = Path(home) / Path(page).stem

@@ -206,7 +206,7 @@ def test_any_tangent_is_a_unit_vector_across(y):
 @property_test
 @given(vectors, st.floats(0.1, 3))
 def test_shortened_keeps_direction_and_what_is_short(v, most):
-    close(geo.shortened(v, most), v * min(1, most / max(np.linalg.norm(v), 1e-300)), size=3)
+    close(geo.shorten(v, most), v * min(1, most / max(np.linalg.norm(v), 1e-300)), size=3)
 
 
 @property_test
@@ -362,7 +362,7 @@ FUNCTIONS = {
     "transport": (geo.transport, "vvv"),
     "transport_derivative": (geo.transport_derivative, "vvvvv"),
     "project_tangent": (geo.project_tangent, "vv"),
-    "shortened": (lambda v: geo.shortened(v, 1.5), "v"),
+    "shortened": (lambda v: geo.shorten(v, 1.5), "v"),
     "parallel_transport": (geo.parallel_transport, "vvv"),
     "any_tangent": (geo.any_tangent, "v"),
     "transpose": (geo.transpose, "m"),

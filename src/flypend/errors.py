@@ -334,7 +334,7 @@ def install_command(extra: str) -> str:
     from urllib.parse import urlsplit
     from urllib.request import url2pathname
 
-    def installed(requirement: str) -> bool:
+    def is_installed(requirement: str) -> bool:
         return any(metadata.distributions(name=re.split(r"[^\w.-]", requirement)[0]))
 
     own = next(iter(metadata.distributions(name="flypend")), None)
@@ -350,4 +350,4 @@ def install_command(extra: str) -> str:
         return shlex.join(["pip", "install", *editable, f"{'.' if place == Path.cwd() else place}[{extra}]"])
     listed = (text.partition(";") for text in own.requires or ())
     wanted = [name.strip() for name, _, marker in listed if re.search(rf"extra == ['\"]{extra}['\"]", marker)]
-    return shlex.join(["pip", "install", *([text for text in wanted if not installed(text)] or wanted)])
+    return shlex.join(["pip", "install", *([text for text in wanted if not is_installed(text)] or wanted)])

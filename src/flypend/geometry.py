@@ -107,7 +107,7 @@ def unit(a: Vector) -> Vector:
     return scale(1 / norm(a), a)
 
 
-def shortened(v: Vector, most: Scalar) -> Vector:
+def shorten(v: Vector, most: Scalar) -> Vector:
     """`v`, or where it is longer than `most`, the vector of that length along it."""
     excess = norm(v) / most
     return scale(1 / (ca.fmax(1, excess) if is_symbolic(excess) else np.fmax(1, excess)), v)

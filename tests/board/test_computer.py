@@ -6,8 +6,8 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.board.believed import Believed
 from flypend.board.command import finish, total_forces, usable_lead
+from flypend.board.nominal import Nominal
 from flypend.board.observer import RECORD, observer
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
@@ -51,7 +51,7 @@ def log(monkeypatch):
         def command(self, t, packed):
             command = super().command(t, packed)
             state, rotors, outside = self.predicted
-            found = (state, rotors, total_forces(Believed(VEHICLE))(state, rotors, outside).full().ravel())
+            found = (state, rotors, total_forces(Nominal(VEHICLE))(state, rotors, outside).full().ravel())
             for column, value in zip((seen.predicted, seen.rotors, seen.forces), found, strict=True):
                 column.append(value)
             seen.commands.append(command)
@@ -134,7 +134,7 @@ def test_in_the_rate_interface_the_prediction_follows_the_loop_on_board(log):
 def test_the_rates_asked_for_are_those_with_which_the_loop_on_board_gives_the_moment(gain):
     loop = Loop(VEHICLE, law().bind(VEHICLE), Plant(interface="rates", rate_loop_gain=gain))
     moment, omega = np.array([0.02, -0.03, 0.01]), TUMBLING.omega
-    asked = finish(loop, Believed(VEHICLE))([5.0, *moment], TUMBLING.packed(), np.full(4, HOVER), [])
+    asked = finish(loop, Nominal(VEHICLE))([5.0, *moment], TUMBLING.packed(), np.full(4, HOVER), [])
     thrust, *rates = np.array(asked).ravel()
     given = gain * VEHICLE.I @ (rates - omega) + np.cross(omega, VEHICLE.I @ omega)
     np.testing.assert_allclose([thrust, *given], [5.0, *moment], rtol=0, atol=1e-15)
@@ -205,7 +205,7 @@ def _observed(force, start, rotors, duration=5.0, period=2e-3, vehicle=VEHICLE):
 
 
 def _update(period):
-    return as_numpy(observer(Believed(VEHICLE), Computer(observer=BANDWIDTH), period, 4))
+    return as_numpy(observer(Nominal(VEHICLE), Computer(observer=BANDWIDTH), period, 4))
 
 
 def _observer(period):

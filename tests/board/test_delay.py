@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import flypend as fp
-from flypend.board.believed import Believed
 from flypend.board.delay import DelayEstimator
+from flypend.board.nominal import Nominal
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
 from flypend.flight.request import Flight
@@ -26,7 +26,7 @@ HOVER = VEHICLE.weight / 4 * np.ones(4)
 
 
 def made(vehicle=VEHICLE, period=0.002, lag_left=0.0):
-    return DelayEstimator(Believed(vehicle), TOLD, REACH, period, lag_left)
+    return DelayEstimator(Nominal(vehicle), TOLD, REACH, period, lag_left)
 
 
 def busy(t):
@@ -123,7 +123,7 @@ def _flown(loop, plant, duration=1.5):
 def test_what_is_predicted_is_where_the_vehicle_is_when_its_command_acts():
     """Without lag left and with the delay known, against small steps of the same equations."""
     delay = 0.04
-    estimator = DelayEstimator(Believed(VEHICLE), delay, 0.02, 0.002, 0.0)
+    estimator = DelayEstimator(Nominal(VEHICLE), delay, 0.02, 0.002, 0.0)
     find, carry, memory = as_numpy(estimator.find()), as_numpy(estimator.carry()), estimator.begin(busy(np.zeros(1))[0])
     engine = EquationsEngine(VEHICLE.replace(rotor_lag=0.0))
     engine.reset(fp.State(y=(0.0, 0.6, 0.8), omega=(1.0, -2.0, 0.5)).packed(), HOVER)
@@ -143,7 +143,7 @@ def test_what_is_predicted_is_where_the_vehicle_is_when_its_command_acts():
 
 def test_forces_that_act_are_late_by_the_delay_found_once_it_is():
     """An estimator moves by them; where nothing is told, they are as late as it assumes."""
-    estimator = DelayEstimator(Believed(VEHICLE), TOLD, REACH, 0.002, assumed=0.02)
+    estimator = DelayEstimator(Nominal(VEHICLE), TOLD, REACH, 0.002, assumed=0.02)
     find, acting, memory = as_numpy(estimator.find()), as_numpy(estimator.acting()), estimator.begin(HOVER)
     delay, times, tells = 0.045, 0.002 * np.arange(1, 1251), estimator.record.place("information")
     off = {"found": [], "at once": [], "assumed": []}

@@ -6,11 +6,11 @@ import pytest
 
 import flypend as fp
 from flypend.board import error_state, felt
-from flypend.board.believed import Believed
 from flypend.board.computer import SteppedBoard
 from flypend.board.estimator import Filter, steady_gain
 from flypend.board.expected import Expected
 from flypend.board.history import QUANTITIES, History
+from flypend.board.nominal import Nominal
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm.random import normals
 from flypend.compile.numeric import as_numpy
@@ -305,7 +305,7 @@ def test_sensitivities_are_those_of_the_sensors(age, at_rest, tolerance):
 def test_the_accelerometer_tells_the_force_that_accelerates_the_vehicle_so(seed):
     """Against the motion with a force on the vehicle and without it."""
     suite = fp.Sensors(position=QUIET, attitude=QUIET, rod=QUIET, gyro=QUIET, accelerometer=QUIET)
-    history = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed(VEHICLE)).history
+    history = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Nominal(VEHICLE)).history
     state, rng = fp.State.random(np.random.default_rng(seed)), np.random.default_rng(seed + 10)
     wrench, force = fp.Wrench(rng.uniform(0, 10), np.zeros(3)), rng.standard_normal(3)  # body frame
 
@@ -373,7 +373,7 @@ def test_a_bias_of_the_gyroscope_is_found(name, duration, off):
     bias = np.array([0.03, -0.02, 0.04])
     suite = SUITES[name]
     flight = flown(suite, 3, duration, world=suite.replace(gyro_bias=tuple(bias)))
-    filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed(VEHICLE))
+    filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Nominal(VEHICLE))
     found = np.array(filtering.record.split(flight[2][-1])["bias"]).ravel()
     kept = slice(None) if suite.attitude is not None else slice(2)
     np.testing.assert_allclose(found[kept], bias[kept], atol=off)
@@ -404,7 +404,7 @@ def normalised(suite, flights, duration, density):
 
 def squared(suite, records, kept=slice(None)):
     """Normalised squared errors, of the numbers `kept`, of the `records` of a flight, every 0.2 s."""
-    filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Believed(VEHICLE))
+    filtering = Filter(Loop(VEHICLE, LAW, Plant(sensors=suite)), Nominal(VEHICLE))
     found = []
     for truth, estimate, memory in list(zip(*records, strict=True))[100::100]:
         parts, P = filtering.record.split(memory), np.zeros((ERRORS, ERRORS))
@@ -456,12 +456,12 @@ def test_errors_are_as_large_as_it_claims_in_many_flights(name):
 
 def test_a_nominal_rod_is_pulled_as_one_of_another_length():
     """By a pair of forces, so that nothing else moves; against the motion of a vehicle with that rod."""
-    pull, filtering = 0.15, Filter(Loop(VEHICLE, LAW, Plant(sensors=SUITES["mocap"])), Believed(VEHICLE))
+    pull, filtering = 0.15, Filter(Loop(VEHICLE, LAW, Plant(sensors=SUITES["mocap"])), Nominal(VEHICLE))
     state, rotors, outside = some_state(6)[0], np.array([1.0, 1.5, 0.7, 1.1]), 0.1 * np.arange(6.0)
     memory = np.zeros(filtering.record.length)
     for name, value in (("state", state), ("rotors", rotors), ("pull", pull)):
         memory[filtering.record.place(name)] = value
-    forces = np.asarray(filtering._pulled()(memory, outside, [])).ravel()
+    forces = np.asarray(filtering._pull()(memory, outside, [])).ravel()
     np.testing.assert_allclose(forces[:3] + forces[3:], outside[:3] + outside[3:], atol=1e-12)
     s, wrench = fp.State.from_packed(state), fp.Wrench(rotors.sum(), np.zeros(3))
     swung = [
@@ -490,7 +490,7 @@ def test_a_rod_of_another_length_is_found(ratio):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sampled, "SteppedBoard", Spy)
         sampled.fly_stepwise(Flight(vehicle=VEHICLE, law=LAW, starts=start, duration=3.0, plant=plant, seed=1))
-    parts = Filter(Loop(VEHICLE, LAW, plant), Believed(VEHICLE), finds=True).record.split(log[-1])
+    parts = Filter(Loop(VEHICLE, LAW, plant), Nominal(VEHICLE), finds=True).record.split(log[-1])
     place = error_state.PULL.start
     doubt = np.sqrt(parts["covariance"][place * (place + 1) // 2 + place])
     wrong = abs(parts["pull"] - (1 / ratio - 1))
@@ -547,8 +547,8 @@ def test_a_filter_that_trusts_its_sensors_too_much_is_found_out():
     """Negative control of the test above: poses twice as noisy as the filter believes."""
     world = SUITES["mocap"]
     half = {n: Sensor(rate=s.rate, latency=s.latency, noise=s.noise / 2) for n, s in world.streams.items()}
-    believed = world.replace(**half)
-    found = squared(believed, flown(believed, 7, 1.6, world=world))
+    nominal = world.replace(**half)
+    found = squared(nominal, flown(nominal, 7, 1.6, world=world))
     assert np.mean(found) > ERRORS + 3 * np.sqrt(26 / len(found))
 
 

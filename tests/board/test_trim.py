@@ -5,8 +5,8 @@ import pytest
 
 import flypend as fp
 from flypend.board import trim as trimming
-from flypend.board.believed import Believed
 from flypend.board.computer import SteppedBoard
+from flypend.board.nominal import Nominal
 from flypend.board.trim import DOUBT, trim
 from flypend.compile.numeric import as_numpy
 from flypend.flight import sampled
@@ -101,7 +101,7 @@ def test_if_the_strength_of_moments_is_not_believed_it_falls(monkeypatch):
 
 
 def test_what_is_sent_takes_the_moment_back():
-    send = as_numpy(trim(Believed(VEHICLE), limits=True))
+    send = as_numpy(trim(Nominal(VEHICLE), limits=True))
     command, lever = np.array([0.09, 0.1, 0.11, 0.08]), np.array([1e-3, -2e-3, 1e-4])
     strong = np.concatenate([lever, [0, 0.25], np.zeros(9)])
     wanted = VEHICLE.mixing() @ command

@@ -30,8 +30,8 @@ def compiled(lanes, function, pointers, kept=None):
     number = np.float64 if lanes.precision == "double" else np.float32
 
     def call(inputs, shapes):
-        memory = [aligned(np.asarray(rows, dtype=number)) for rows in inputs]
-        memory += [aligned(np.zeros(shape, dtype=kind)) for shape, kind in shapes]
+        memory = [allocate_aligned(np.asarray(rows, dtype=number)) for rows in inputs]
+        memory += [allocate_aligned(np.zeros(shape, dtype=kind)) for shape, kind in shapes]
         native(*(array.ctypes.data for array in memory))
         if kept is not None:
             kept.extend(memory[: len(inputs)])
@@ -40,7 +40,7 @@ def compiled(lanes, function, pointers, kept=None):
     return call
 
 
-def aligned(array):
+def allocate_aligned(array):
     """`array` at an address divisible by 128."""
     room = np.zeros(array.nbytes + 128, dtype=np.uint8)
     first = -room.ctypes.data % 128

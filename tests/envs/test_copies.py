@@ -260,7 +260,7 @@ def test_a_state_of_another_version_is_refused():
     state = world.save_state()
     other = tuple((name, "0.1" if name == "version" else value) for name, value in state.about)
     with pytest.raises(fp.InputError, match=r"^state\.version: "):
-        world.restore_state(replace(state, about=other).sealed())
+        world.restore_state(replace(state, about=other).with_checksum())
     rebuild, (about, *rest) = world.worlds.__reduce__()
     with pytest.raises(fp.InputError, match=r"^state\.version: "):
         rebuild(about | {"version": "0.1"}, *rest)

@@ -236,7 +236,7 @@ def test_a_dropout_in_flight_is_survived():
     made, engine, idle = board(), EquationsEngine(VEHICLE), np.full(4, LEAST)
     engine.reset(fp.State(y=(0, 0, 1)).packed(), idle)
     wind = np.array([0.3, 0, 0, 0, 0.02, 0])
-    believed, unknown = [], made.code.made.memory.place("observer.unknown").start
+    nominal, unknown = [], made.code.made.memory.place("observer.unknown").start
     for k in range(2500):
         measured = engine.packed.copy()
         if 1500 <= k < 1515:  # 30 ms
@@ -244,9 +244,9 @@ def test_a_dropout_in_flight_is_survived():
         rotors = made.step(measured)
         assert (made.status == OK) == (not 1500 <= k < 1515)
         engine.step(rotors, 2e-3, wind)
-        believed.append(made.memory[unknown : unknown + 3].copy())  # the estimate of the sum of the forces
-    assert np.allclose(believed[1499], wind[:3] + wind[3:], atol=0.05)
-    assert np.allclose(believed[1515], believed[1499], atol=0.05)  # kept over the gap, not begun from nothing
+        nominal.append(made.memory[unknown : unknown + 3].copy())  # the estimate of the sum of the forces
+    assert np.allclose(nominal[1499], wind[:3] + wind[3:], atol=0.05)
+    assert np.allclose(nominal[1515], nominal[1499], atol=0.05)  # kept over the gap, not begun from nothing
     assert fp.State.from_packed(engine.packed).y[2] > 0.98
 
 

@@ -108,7 +108,7 @@ def _library(folder, law, sensors=None):
 
 @pytest.mark.parametrize("name", [*FACTORIES, "light", "calm"])
 def test_no_law_calls_more_of_the_library(name, tmp_path):
-    calm = LAWS["inverted"].bind(VEHICLE).calmed(0.5)
+    calm = LAWS["inverted"].bind(VEHICLE).calm_by(0.5)
     law = calm if name == "calm" else LAWS[name] if name in LAWS else FACTORIES[name]()
     assert _called(_library(tmp_path, law), "flypend_law.c") <= {"sqrtf", *LIBRARY}
 

@@ -27,11 +27,11 @@ def test_a_law_that_knows_the_scale_flies_the_machine_that_has_it():
     # Rotors begin at the least force.
     machine = fp.vehicle("hehn2011").replace(thrust_scale=SCALE, rotor_limits=(0, 3.5))
     real = fp.Plant(strength=SCALE, mismatch={"mass": SCALE, "bob_mass": SCALE, "inertia": SCALE})
-    believed = fp.simulate(machine, fp.laws.inverted(), START, duration=3)
+    nominal = fp.simulate(machine, fp.laws.inverted(), START, duration=3)
     flown = fp.simulate(machine.commanded(), fp.laws.inverted(), START, duration=3, plant=real)
-    assert np.abs(believed.x - flown.x).max() < 1e-6  # roundoff, grown by 3 s of swing-up
+    assert np.abs(nominal.x - flown.x).max() < 1e-6  # roundoff, grown by 3 s of swing-up
     ignored = fp.simulate(machine.replace(thrust_scale=1.0), fp.laws.inverted(), START, duration=3)
-    assert np.abs(believed.x - ignored.x).max() > 1e-2
+    assert np.abs(nominal.x - ignored.x).max() > 1e-2
 
 
 def test_the_air_acts_on_the_force_that_is_there():

@@ -351,10 +351,10 @@ def test_every_defect_changes_the_program():
 
 
 def test_the_estimator_is_told_of_no_defect():
-    from flypend.board.believed import Believed
+    from flypend.board.nominal import Nominal
 
     def programs(sensors):
-        made = Filter(Loop(VEHICLE, LAW.bind(VEHICLE), Plant(sensors=sensors)), Believed(VEHICLE))
+        made = Filter(Loop(VEHICLE, LAW.bind(VEHICLE), Plant(sensors=sensors)), Nominal(VEHICLE))
         return [f.serialize() for f in (made.begin(), made.correct(), made.carry())]
 
     worst = EVERY.replace(**ONE)

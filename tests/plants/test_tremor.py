@@ -103,7 +103,7 @@ def test_gains_are_calm_near_the_reference_only():
     """Far away, moments are those of the law as it is; near, they follow the axis with more damping."""
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", 24)
     law = inverted().bind(VEHICLE)
-    wrenches = [law.calmed(share).upright(t, packed, ca.SX(6, 1))[1:] for share in (0.0, 1.0)]
+    wrenches = [law.calm_by(share).upright(t, packed, ca.SX(6, 1))[1:] for share in (0.0, 1.0)]
     moments = as_numpy(ca.Function("moments", [t, packed], wrenches))
 
     def apart(state):
@@ -133,7 +133,7 @@ def test_a_machine_lighter_than_believed_stands_on_slow_rotors():
 def test_calm_gains_are_stable_and_tremble_less():
     for name in ("hehn2011", "crazyflie", "nayak2018"):
         law = inverted().bind(fp.vehicle(name))
-        told = [tremor(law.calmed(share), MOCAP, 0.002).axis for share in (0.0, 0.5, 1.0)]
+        told = [tremor(law.calm_by(share), MOCAP, 0.002).axis for share in (0.0, 0.5, 1.0)]
         assert told[2] < told[1] < told[0]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board.believed import Believed
+from flypend.board.nominal import Nominal
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, clip
 from flypend.laws import BoundLaw, Controller
@@ -54,14 +54,14 @@ def command_width(loop: Loop) -> int:
     return 4 if loop.sampled.interface == "rates" else len(loop.vehicle.rotor_spins)
 
 
-def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int = 0) -> ca.Function:
+def law_command(loop: Loop, nominal: Nominal, steer: Steering, reference: int = 0) -> ca.Function:
     """Return the law of `loop` as (t, horizon, state, rotors, forces, reference, gains, params) → command.
 
     Parameters
     ----------
     loop : Loop
         Source of law, interface, limits, lead, and the input gains.
-    believed : Believed
+    nominal : Nominal
         The nominal vehicle of the equations; `params` are its symbols.
     steer : Steering
         The wrench of the law.
@@ -78,24 +78,24 @@ def law_command(loop: Loop, believed: Believed, steer: Steering, reference: int 
     """
     t, horizon = ca.SX.sym("t"), ca.SX.sym("h")
     packed, p = ca.SX.sym("s", SIZE), ca.SX.sym("p", len(loop.parameters))
-    rotors, outside = ca.SX.sym("r", believed.rotors), ca.SX.sym("F", OUTSIDE.length)
+    rotors, outside = ca.SX.sym("r", nominal.rotors), ca.SX.sym("F", OUTSIDE.length)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
     told = OUTSIDE.split(outside)
-    vehicle = believed.vehicle
+    vehicle = nominal.vehicle
     if loop.symbolic.uses_forces:
         vehicle = Altered(vehicle, l=found_length(vehicle, outside))
     wrench = steer(t, packed, told["forces"], path, gains, vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
     wrench = rescale(ca.substitute(wrench, t, t + horizon), outside)
-    command = to_command(loop, believed, wrench, packed, rotors)
-    inputs = [t, horizon, packed, rotors, outside, path, p, believed.symbols]
+    command = to_command(loop, nominal, wrench, packed, rotors)
+    inputs = [t, horizon, packed, rotors, outside, path, p, nominal.symbols]
     return ca.Function("command", inputs, [ca.cse(ca.densify(command))])
 
 
-def total_forces(believed: Believed) -> ca.Function:
+def total_forces(nominal: Nominal) -> ca.Function:
     """Return (state (24,), rotors (n,), `OUTSIDE` (8,)) → external forces (6,), N, with what scales the thrust."""
-    packed, rotors, outside = ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors), ca.SX.sym("F", OUTSIDE.length)
+    packed, rotors, outside = ca.SX.sym("s", SIZE), ca.SX.sym("r", nominal.rotors), ca.SX.sym("F", OUTSIDE.length)
     told = OUTSIDE.split(outside)
     scaled = told["scale"] * ca.sum1(rotors) * State.symbolic(packed).z
     return ca.Function("total", [packed, rotors, outside], [told["forces"] + ca.vertcat(scaled, np.zeros(3))])
@@ -115,17 +115,17 @@ def rescale(wrench: Numbers, outside: Numbers) -> Numbers:
     return ca.vertcat(wrench[0] / (1 + OUTSIDE.split(outside)["scale"]), wrench[1:])
 
 
-def finish(loop: Loop, believed: Believed) -> ca.Function:
+def finish(loop: Loop, nominal: Nominal) -> ca.Function:
     """Return (wrench (4,) with e₃ up, state (24,), rotors (n,), params) → command, for a callable law."""
-    wrench, packed, rotors = ca.SX.sym("W", 4), ca.SX.sym("s", SIZE), ca.SX.sym("r", believed.rotors)
-    command = to_command(loop, believed, wrench, packed, rotors)
-    return ca.Function("finish", [wrench, packed, rotors, believed.symbols], [ca.densify(command)])
+    wrench, packed, rotors = ca.SX.sym("W", 4), ca.SX.sym("s", SIZE), ca.SX.sym("r", nominal.rotors)
+    command = to_command(loop, nominal, wrench, packed, rotors)
+    return ca.Function("finish", [wrench, packed, rotors, nominal.symbols], [ca.densify(command)])
 
 
-def to_command(loop: Loop, believed: Believed, wrench: Numbers, packed: Numbers, rotors: Numbers) -> Numbers:
+def to_command(loop: Loop, nominal: Nominal, wrench: Numbers, packed: Numbers, rotors: Numbers) -> Numbers:
     """Return the command for a wrench (4,), e₃ up, in CasADi; NaN for an invalid wrench, which limits would hide."""
     thrust, moment = wrench[0], wrench[1:]
-    vehicle, plant = believed.vehicle, loop.sampled
+    vehicle, plant = nominal.vehicle, loop.sampled
     if plant.interface == "rates":
         omega = State.symbolic(packed).omega
         return ca.vertcat(thrust, omega + angular_acceleration(moment, omega, vehicle) / plant.rate_loop_gain)

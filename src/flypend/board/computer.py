@@ -8,18 +8,18 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from flypend.board.believed import Believed
 from flypend.board.command import finish, law_command, steering
+from flypend.board.nominal import Nominal
 from flypend.board.program import (
     Parts,
-    carrying,
+    carry_program,
+    computer_view,
     filters,
     initial_memory,
-    known_to_computer,
     parts,
-    predicting,
-    remembering,
-    trimming,
+    predict_program,
+    remember_program,
+    trim_program,
 )
 from flypend.building import built
 from flypend.compile.numeric import as_numpy
@@ -60,7 +60,7 @@ class SteppedBoard:
     """
 
     def __init__(self, loop: Loop, rotors: Numbers, estimate: Numbers = None, steer: Steer | None = None) -> None:
-        self._stages = _stages(replace(loop, plant=known_to_computer(loop.sampled)))
+        self._stages = _stages(replace(loop, plant=computer_view(loop.sampled)))
         self.law: Steer = self._stages.steer
         self._steer = steer or self.law
         memory = initial_memory(loop, np.asarray(rotors, dtype=float), estimate)
@@ -121,15 +121,15 @@ class _Stages(NamedTuple):
 @built(maxsize=64)
 def _stages(loop: Loop) -> _Stages:
     made = parts(loop)
-    programs = [predicting(made), remembering(made), trimming(made)]
+    programs = [predict_program(made), remember_program(made), trim_program(made)]
     if made.estimator is not None:
-        programs += [made.estimator.correct(), carrying(made)]
-    return _Stages(made, _steer(loop, made.believed), *map(as_numpy, programs))
+        programs += [made.estimator.correct(), carry_program(made)]
+    return _Stages(made, _steer(loop, made.nominal), *map(as_numpy, programs))
 
 
-def _steer(loop: Loop, believed: Believed) -> Steer:
+def _steer(loop: Loop, nominal: Nominal) -> Steer:
     if isinstance(loop.law, Controller):
-        law, end = loop.law, as_numpy(finish(loop, believed))
+        law, end = loop.law, as_numpy(finish(loop, nominal))
         return lambda t, state, rotors, _: end(law.upright(t, state), state, rotors, NONE)
-    command = as_numpy(law_command(loop, believed, steering(loop.symbolic)))
+    command = as_numpy(law_command(loop, nominal, steering(loop.symbolic)))
     return lambda t, state, rotors, forces: command(t, 0.0, state, rotors, forces, NONE, NONE, NONE)

@@ -22,8 +22,8 @@ import casadi as ca
 import numpy as np
 
 from flypend.board import trim as trimming
-from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE
+from flypend.board.nominal import Nominal
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, clip
 from flypend.laws.inverted_gains import angular_authority
@@ -54,7 +54,7 @@ class DelayEstimator:
 
     Parameters
     ----------
-    believed : Believed
+    nominal : Nominal
         The nominal vehicle.
     told, reach : float
         The delay (s) to begin with, and how much longer it may be.
@@ -68,11 +68,11 @@ class DelayEstimator:
     """
 
     def __init__(
-        self, believed: Believed, told: float, reach: float, period: float, lag_left: float = 0.0, assumed: float = 0.0
+        self, nominal: Nominal, told: float, reach: float, period: float, lag_left: float = 0.0, assumed: float = 0.0
     ) -> None:
         self._assumed = max(assumed, LEAST * period)
         self._lag_left = lag_left
-        self._believed, self._period = believed, period
+        self._nominal, self._period = nominal, period
         self._told, self._longest = max(told, LEAST * period), told + reach
         self._stride = max(1, round(SPACING / period))
         self.depth = int(np.ceil(self._longest / self._spacing - 1e-9))
@@ -90,7 +90,7 @@ class DelayEstimator:
             Field("earlier", 3, "what the moment that acted then makes of it, rad/s^2"),
             Field("smooth", 10, "error, slope, model, rad/s^2, rad/s^3 and rad/s^2, and thrust, N, filtered"),
             Field("smoother", 10, "the same, filtered again"),
-            Field("past", self.depth * self._believed.rotors, "forces of the rotors, newest first, N"),
+            Field("past", self.depth * self._nominal.rotors, "forces of the rotors, newest first, N"),
         )
         return Record("delay", "Estimator of the delay of the loop.", fields)
 
@@ -111,7 +111,7 @@ class DelayEstimator:
         The horizon (s) is the delay and the lag that is left. The wrenches, N and N m, are the mean and the change of
         their ramp over it (see `plants.lag`), and the one that acts now.
         """
-        b, h = self._believed, self._period
+        b, h = self._nominal, self._period
         memory, omega = ca.SX.sym("memory", self.record.length), ca.SX.sym("w", 3)
         rotors, command = ca.SX.sym("r", b.rotors), ca.SX.sym("u", b.rotors)
         begun, phase, delay, trim, known, before, earlier, smooth, smoother, past = self.record.split(memory).values()
@@ -159,8 +159,8 @@ class DelayEstimator:
         e = self._lag_left
         if e == 0:
             return past
-        forces, _ = hold(rotors, command, step_timing(self._believed.lag, e))
-        return join_ramps(past, forces.mixed(self._believed.vehicle.mixing()), delay, e)
+        forces, _ = hold(rotors, command, step_timing(self._nominal.lag, e))
+        return join_ramps(past, forces.mixed(self._nominal.vehicle.mixing()), delay, e)
 
     def acting(self) -> ca.Function:
         """Return (memory, rotors (n,), params) → the forces (n,) that act by then, N, after a step with that memory.
@@ -168,7 +168,7 @@ class DelayEstimator:
         Their delay is the one found, as far as the past tells it, and else the one assumed: `told` is in the middle of
         what a predictor survives, and of forces one knows better.
         """
-        b, memory = self._believed, ca.SX.sym("memory", self.record.length)
+        b, memory = self._nominal, ca.SX.sym("memory", self.record.length)
         rotors = ca.SX.sym("r", b.rotors)
         parts = self.record.split(memory)
         share = parts["information"] / (parts["information"] + DOUBT * angular_authority(b.vehicle) ** 2)
@@ -178,7 +178,7 @@ class DelayEstimator:
 
     def carry(self) -> ca.Function:
         """Return (state (24,), horizon, wrenches (4, 3), `OUTSIDE` (8,), params) → state (24,) at the horizon."""
-        b = self._believed
+        b = self._nominal
         packed, horizon, outside = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", OUTSIDE.length)
         wrenches, told = ca.SX.sym("W", WRENCH, 3), OUTSIDE.split(outside)
         scaled = ca.vertcat((1 + told["scale"]) * wrenches[0, :], wrenches[1:, :])
@@ -187,7 +187,7 @@ class DelayEstimator:
 
     def skip(self) -> ca.Function:
         """Return (memory, rotors (n,)) → memory after a period without measurement: the delay stays."""
-        memory, rotors = ca.SX.sym("memory", self.record.length), ca.SX.sym("r", self._believed.rotors)
+        memory, rotors = ca.SX.sym("memory", self.record.length), ca.SX.sym("r", self._nominal.rotors)
         parts = self.record.split(memory)
         phase, past = self._age(parts["phase"], self._entries(parts["past"], rotors))
         kept = self.record.join(parts | {"begun": 0, "phase": phase, "past": ca.vec(past)})
@@ -195,7 +195,7 @@ class DelayEstimator:
 
     def _entries(self, past: Numbers, rotors: Numbers) -> Numbers:
         """Return the forces (n, k) of the rotors now and remembered, newest first."""
-        return ca.horzcat(rotors, ca.reshape(past, self._believed.rotors, self.depth))
+        return ca.horzcat(rotors, ca.reshape(past, self._nominal.rotors, self.depth))
 
     def _age(self, phase: Scalar, entries: Numbers) -> tuple[Scalar, Numbers]:
         """Return phase and remembered forces a period later: every `stride` periods the newest is remembered."""
@@ -203,7 +203,7 @@ class DelayEstimator:
         return ca.if_else(full, 1, phase + 1), ca.if_else(full, entries[:, :-1], entries[:, 1:])
 
     def _wrench(self, rotors: Numbers) -> Numbers:
-        return ca.mtimes(self._believed.vehicle.mixing(), rotors)
+        return ca.mtimes(self._nominal.vehicle.mixing(), rotors)
 
     def weights(self, age: Scalar, phase: Scalar) -> tuple[Numbers, Numbers]:
         """Return the weights (k,) of the forces now and remembered, which are linear in between.

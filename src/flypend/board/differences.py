@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import casadi as ca
 
-from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE
+from flypend.board.nominal import Nominal
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, Vector, tangent_part
 from flypend.model import State
@@ -28,11 +28,11 @@ RECORD = Record(
 class Differences:
     """Poses and their differences as an estimate of the state; interface as `estimator.Filter`."""
 
-    def __init__(self, loop: Loop, believed: Believed) -> None:
+    def __init__(self, loop: Loop, nominal: Nominal) -> None:
         self.sensors: Sensors = loop.sampled.sensors
         self._period = 1 / loop.sampled.rate
-        self._params = believed.symbols
-        self._rotors = believed.rotors
+        self._params = nominal.symbols
+        self._rotors = nominal.rotors
         self.record = RECORD
 
     def begin(self) -> ca.Function:
@@ -51,14 +51,14 @@ class Differences:
         def latest(name: str, before: Numbers) -> Numbers:
             return ca.if_else(read[f"{name}_age"] >= 0, read[name], before)
 
-        def differenced(name: str, before: Numbers, rate: Vector) -> tuple[Vector, Scalar]:
+        def difference(name: str, before: Numbers, rate: Vector) -> tuple[Vector, Scalar]:
             since, age = kept[f"since_{name}"], read[f"{name}_age"]
             found = (read[name] - before) / ca.fmax(since - age, 1e-9)
             again = (age >= 0) * (since >= 0)
             return ca.if_else(again, found, rate), ca.if_else(age >= 0, age, since)
 
-        x_dot, since_x = differenced("position", s.x, s.x_dot)
-        y_dot, since_y = differenced("rod", s.y, s.y_dot)
+        x_dot, since_x = difference("position", s.x, s.x_dot)
+        y_dot, since_y = difference("rod", s.y, s.y_dot)
         y = latest("rod", s.y)
         R = ca.reshape(latest("attitude", ca.vec(s.R.T)), 3, 3).T
         state = State(

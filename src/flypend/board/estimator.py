@@ -16,11 +16,11 @@ import casadi as ca
 import numpy as np
 
 from flypend.board import error_state, felt
-from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE, total_forces
 from flypend.board.error_state import Densities
 from flypend.board.expected import GATED, Expected
 from flypend.board.history import REACH, History, finds_latency
+from flypend.board.nominal import Nominal
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
 from flypend.geometry import (
@@ -33,7 +33,7 @@ from flypend.geometry import (
     clip,
     dot,
     parallel_transport,
-    shortened,
+    shorten,
     tangent_part,
 )
 from flypend.model import State, Vehicle
@@ -65,16 +65,16 @@ LEAST_THRUST = 0.3
 
 
 class Filter:
-    """The estimator of `loop`, whose plant has sensors, as `believed`.
+    """The estimator of `loop`, whose plant has sensors, as `nominal`.
 
     `finds` says whether the board finds the delay of its loop, and with it the forces that act.
     """
 
-    def __init__(self, loop: Loop, believed: Believed, *, finds: bool = False) -> None:
+    def __init__(self, loop: Loop, nominal: Nominal, *, finds: bool = False) -> None:
         self.sensors: Sensors = loop.sampled.sensors
         self.period = 1 / loop.sampled.rate
         self.history = History.of(self.sensors, self.period)
-        self._loop, self._believed, self._finds = loop, believed, finds
+        self._loop, self._nominal, self._finds = loop, nominal, finds
 
     @property
     def feels(self) -> bool:
@@ -82,7 +82,7 @@ class Filter:
         return self.sensors.accelerometer is not None
 
     @property
-    def gated(self) -> tuple[str, ...]:
+    def gated_streams(self) -> tuple[str, ...]:
         """The streams whose readings are compared with what is expected before they are believed."""
         return tuple(name for name in self.sensors.streams if name in GATED)
 
@@ -99,13 +99,13 @@ class Filter:
             what = f"{what}, and the biases of the IMU"
         fields = (
             Field("state", SIZE, "the estimate, e3 up"),
-            Field("rotors", self._believed.rotors, "modelled forces of the rotors, N"),
+            Field("rotors", self._nominal.rotors, "modelled forces of the rotors, N"),
             Field("frame", 3, "first vector of the frame across the rod, world"),
             Field("force", 3, "force on the whole that lasts, beyond the modelled thrust, world, N"),
             Field("bandwidth", 0, "at which corrections are taken for forces, 1/s"),
             Field("bias", 3, "of the gyroscope, rad/s"),
             Field("pull", 0, "nominal over true length of the rod, less 1"),
-            Field("rejections", len(self.gated), "of late by each stream of poses and angles, readings"),
+            Field("rejections", len(self.gated_streams), "of late by each stream of poses and angles, readings"),
             Field("difference", 3, "of the forces that last, F_b/m - F_v/M, across the rod, world, m/s^2"),
             *[Field.of(felt.RECORD)] * self.feels,
             *late * finds_latency(self.sensors),
@@ -117,8 +117,8 @@ class Filter:
 
     def begin(self) -> ca.Function:
         """Return (rotors (n,), estimate (24,), params) → memory before the first step."""
-        rotors, packed = ca.SX.sym("r", self._believed.rotors), ca.SX.sym("s", SIZE)
-        vehicle, s = self._believed.vehicle, State.symbolic(packed)
+        rotors, packed = ca.SX.sym("r", self._nominal.rotors), ca.SX.sym("s", SIZE)
+        vehicle, s = self._nominal.vehicle, State.symbolic(packed)
         b = any_tangent(s.y)
         P = error_state.first_covariance(self.sensors.start, s, error_state.frame(b, s.y), vehicle)
         P = ca.diagcat(P, error_state.PULL_PRIOR**2)
@@ -130,12 +130,12 @@ class Filter:
         memory = self.record.join({
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
             "bandwidth": UNSEEN_BANDWIDTH if self.sensors.attitude is None else FIRST_BANDWIDTH,
-            "bias": np.zeros(3), "pull": 0, "rejections": np.zeros(len(self.gated)),
+            "bias": np.zeros(3), "pull": 0, "rejections": np.zeros(len(self.gated_streams)),
             "felt": felt.begin(vehicle), "late": 0, "late_doubt": LATE**2,
             "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.pack(P),
             "past": self.history.begin(rows, weight),
         })  # fmt: skip
-        return ca.Function("estimate_begun", [rotors, packed, self._believed.symbols], [ca.densify(memory)])
+        return ca.Function("estimate_begun", [rotors, packed, self._nominal.symbols], [ca.densify(memory)])
 
     # Correction ---------------------------------------------------------------------------------------------------
 
@@ -143,7 +143,7 @@ class Filter:
         """Return (memory, readings, params) → memory, state (24,), e₃ up, and what is found, `command.OUTSIDE`."""
         memory = ca.SX.sym("memory", self.record.length)
         readings = ca.SX.sym("readings", readings_record(self.sensors).length)
-        parts, vehicle = self.record.split(memory), self._believed.vehicle
+        parts, vehicle = self.record.split(memory), self._nominal.vehicle
         before, frame = State.symbolic(parts["state"]), parts["frame"]
         known = ca.reshape(parts["turned"], 3, 3).T if "turned" in parts else ca.SX.eye(3)
         settled = self._settle(parts["covariance"])
@@ -152,7 +152,7 @@ class Filter:
         if finds_latency(self.sensors):
             self._find_latency(parts, expected, settled)
         thrust = ca.sum1(parts["rotors"])
-        departure = _departure(thrust * before.z + parts["force"] + self._felt(parts, before.R), vehicle)
+        departure = _departure(thrust * before.z + parts["force"] + self._accelerometer_force(parts, before.R), vehicle)
         calm = 1 / (1 + departure / HOVERING**2)
         error, P, rejections = error_state.update(
             error_state.unpack(parts["covariance"]), expected.readings(vehicle), parts["rejections"], calm
@@ -169,7 +169,7 @@ class Filter:
         pace = calm * parts["bandwidth"]
         if self.sensors.attitude is not None:
             parts["bandwidth"] -= self.period * calm * (parts["bandwidth"] ** 2 - LASTING_BANDWIDTH**2)
-        force, difference, outside = _lasting(parts["force"], parts["difference"], error, b, s, vehicle, pace, limit)
+        force, difference, outside = _correct(parts["force"], parts["difference"], error, b, s, vehicle, pace, limit)
         if self.feels:
             if self.sensors.attitude is None:
                 correction = error[error_state.FELT_BIAS]
@@ -180,7 +180,7 @@ class Filter:
             fresh, told = expected.felt(felt.RECORD.split(parts["felt"])["bias"], vehicle)
             given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
             parts["felt"] = felt.correct(parts["felt"], *given)
-            outside = outside + ca.vertcat(self._felt(parts, s.R), np.zeros(3))
+            outside = outside + ca.vertcat(self._accelerometer_force(parts, s.R), np.zeros(3))
             scale = _scale(outside[:3], thrust, s.z, vehicle)
             outside = outside - ca.vertcat(scale * thrust * s.z, np.zeros(3))
         most = error_state.MOST_PULL
@@ -191,7 +191,7 @@ class Filter:
         }  # fmt: skip
         found = {"forces": outside, "scale": scale if self.feels else 0, "pull": pull}
         outputs = ca.cse([ca.densify(v) for v in (self.record.join(parts), s.packed(), OUTSIDE.join(found))])
-        return ca.Function("correct", [memory, readings, self._believed.symbols], outputs)
+        return ca.Function("correct", [memory, readings, self._nominal.symbols], outputs)
 
     def _settle(self, covariance: Numbers) -> Scalar:
         """Return the steady variance of the attitude over the present one, at most 1; 1 where it is not measured.
@@ -219,7 +219,7 @@ class Filter:
         parts["late"] = clip(parts["late"] - gain * dot(rate, turn), 0, REACH)
         parts["late_doubt"] = doubt * (1 - gain * dot(rate, rate))
 
-    def _felt(self, parts: dict[str, Any], R: Matrix) -> Vector:
+    def _accelerometer_force(self, parts: dict[str, Any], R: Matrix) -> Vector:
         """Return the force (3,) that the accelerometer adds to the modelled thrust, world, N; 0 without one."""
         return R @ felt.beyond(parts["felt"], ca.sum1(parts["rotors"])) if self.feels else ca.SX.zeros(3)
 
@@ -232,55 +232,55 @@ class Filter:
         act at the end of the period, N.
         """
         segments = segments_of(self._loop.sampled)
-        width = 4 if self._loop.sampled.interface == "rates" else self._believed.rotors
-        size = self._believed.rotors if self._finds else width * (1 + max(segment.age for segment in segments))
+        width = 4 if self._loop.sampled.interface == "rates" else self._nominal.rotors
+        size = self._nominal.rotors if self._finds else width * (1 + max(segment.age for segment in segments))
         memory, outside = ca.MX.sym("memory", self.record.length), ca.MX.sym("outside", OUTSIDE.length)
         given = ca.MX.sym("given", size)
-        params = ca.MX.sym("params", self._believed.symbols.numel())
+        params = ca.MX.sym("params", self._nominal.symbols.numel())
         state, rotors = (memory[self.record.place(name)] for name in ("state", "rotors"))
-        forces = total_forces(self._believed)(state, rotors, outside)
-        pulled = self._pulled()(memory, forces, params)
+        forces = total_forces(self._nominal)(state, rotors, outside)
+        pulled = self._pull()(memory, forces, params)
         if self._finds:
-            state, rotors = self._moved()(state, rotors, given, pulled, params), given
+            state, rotors = self._advance()(state, rotors, given, pulled, params), given
         else:
-            twin = Twin(self._loop, self._believed, params, forces=True, name="carried")
+            twin = Twin(self._loop, self._nominal, params, forces=True, name="carried")
             state, rotors = twin.advance(state, rotors, ca.vertsplit(given, width), segments, pulled)
         rest = self._spread()(memory, forces, state, params)
         after = ca.vertcat(state, rotors, rest)
         return ca.Function("carry", [memory, outside, given, params], [after])
 
-    def _pulled(self) -> ca.Function:
+    def _pull(self) -> ca.Function:
         """Return (memory, outside (6,), params) → forces (6,), N, under which a nominal rod moves as the true one.
 
         Of the pull on a rod of another length, they add what the model lacks, as a pair that leaves the whole alone.
         """
         memory, outside = ca.SX.sym("memory", self.record.length), ca.SX.sym("outside", 6)
-        parts, vehicle = self.record.split(memory), self._believed.vehicle
+        parts, vehicle = self.record.split(memory), self._nominal.vehicle
         M, m, s = vehicle.M, vehicle.m, State.symbolic(parts["state"])
         on_vehicle = ca.sum1(parts["rotors"]) * s.z + outside[:3]
         more = parts["pull"] * tangent_part(s.y, outside[3:] / m - on_vehicle / M)
         pulled = outside + ca.vertcat(*split_force(ca.SX(3, 1), more, vehicle))
-        return ca.Function("pulled", [memory, outside, self._believed.symbols], [ca.cse(ca.densify(pulled))])
+        return ca.Function("pulled", [memory, outside, self._nominal.symbols], [ca.cse(ca.densify(pulled))])
 
-    def _moved(self) -> ca.Function:
+    def _advance(self) -> ca.Function:
         """Return (state, rotors (n,) at the beginning and at the end, outside, params) → state a period later.
 
         In between the forces change as under a held command.
         """
-        believed, h = self._believed, self.period
+        nominal, h = self._nominal, self.period
         state, outside = ca.SX.sym("s", SIZE), ca.SX.sym("F", 6)
-        begin, end = (ca.SX.sym(name, believed.rotors) for name in "be")
-        timing = step_timing(believed.lag, h)
+        begin, end = (ca.SX.sym(name, nominal.rotors) for name in "be")
+        timing = step_timing(nominal.lag, h)
         command = end - timing[1] / (1 - timing[1]) * (begin - end)
         ramp, _ = hold(begin, command, timing)
-        moved = cascade_step(state, ramp.mixed(believed.vehicle.mixing()), outside, h, believed.vehicle)
-        return ca.Function("moved", [state, begin, end, outside, believed.symbols], [ca.cse(ca.densify(moved))])
+        moved = cascade_step(state, ramp.mixed(nominal.vehicle.mixing()), outside, h, nominal.vehicle)
+        return ca.Function("moved", [state, begin, end, outside, nominal.symbols], [ca.cse(ca.densify(moved))])
 
     def _spread(self) -> ca.Function:
         """Return (memory, outside, state after, params) → the memory after state and rotors, a period later."""
         memory = ca.SX.sym("memory", self.record.length)
         outside, after = ca.SX.sym("outside", 6), ca.SX.sym("after", SIZE)
-        parts, vehicle, h = self.record.split(memory), self._believed.vehicle, self.period
+        parts, vehicle, h = self.record.split(memory), self._nominal.vehicle, self.period
         s, s_after = State.symbolic(parts["state"]), State.symbolic(after)
         force = ca.sum1(parts["rotors"]) * s.z + outside[:3]
         P = error_state.unpack(parts["covariance"])
@@ -291,7 +291,7 @@ class Filter:
             "past": self._remember(parts, s, s_after),
         }
         rest = self.record.join(parts)[self.record.place("frame").start :]
-        return ca.Function("spread", [memory, outside, after, self._believed.symbols], [ca.cse(ca.densify(rest))])
+        return ca.Function("spread", [memory, outside, after, self._nominal.symbols], [ca.cse(ca.densify(rest))])
 
     def _remember(self, parts: dict[str, Any], s: State, after: State) -> Numbers:
         """Return the past a period later; newest entries are those of the period that ends now."""
@@ -302,7 +302,7 @@ class Filter:
             "turning": history.shift(past["turning"], s.omega, after.omega),
             "swinging": history.shift(past["swinging"], s.y_dot, after.y_dot),
             "force": [
-                mean_force(s.x_dot, after.x_dot, s.R, after.R, self._believed.vehicle.g, self.period),
+                mean_force(s.x_dot, after.x_dot, s.R, after.R, self._nominal.vehicle.g, self.period),
                 *past["force"],
             ],
         }
@@ -319,7 +319,7 @@ class Filter:
     def _densities(self, force: Vector) -> Densities:
         """Return the densities where `force` (3,) acts on the whole beside its weight, world frame, N."""
         assert self.sensors.gyro is not None
-        departure = _departure(force, self._believed.vehicle)
+        departure = _departure(force, self._nominal.vehicle)
         return Densities(*self.sensors.lacking(self.period, departure), self.sensors.gyro.density(self.period))
 
 
@@ -338,7 +338,7 @@ def _scale(force: Vector, thrust: Scalar, z: Vector, vehicle: Vehicle) -> Scalar
     return clip(scale, -felt.MOST_SCALE, felt.MOST_SCALE)
 
 
-def _lasting(
+def _correct(
     total: Vector, difference: Vector, error: Numbers, b: Vector, s: State, vehicle: Vehicle, pace: Scalar,
     limit: Scalar,
 ) -> tuple[Vector, Vector, Numbers]:  # fmt: skip
@@ -351,13 +351,13 @@ def _lasting(
     total = total + pace * (M + m) * error[error_state.VELOCITY]
     B = error_state.frame(b, s.y)
     difference = tangent_part(s.y, difference) + pace * l * B @ error[error_state.SWING]
-    total, difference = shortened(total, limit), shortened(difference, limit / m)
+    total, difference = shorten(total, limit), shorten(difference, limit / m)
     return total, difference, ca.vertcat(*split_force(total, difference, vehicle))
 
 
 def segments_of(plant: Plant) -> tuple[Segment, ...]:
     """Return the intervals of a control period by the age of the command that acts, as the estimator assumes them."""
-    return within_period(plant.believed_delay, 1 / plant.rate)
+    return within_period(plant.assumed_delay, 1 / plant.rate)
 
 
 def steady_gain(wander: float, noise: float) -> float:

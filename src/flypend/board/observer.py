@@ -12,9 +12,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board.believed import Believed
+from flypend.board.nominal import Nominal
 from flypend.compile.record import Field, Record
-from flypend.geometry import E3, Numbers, Scalar, Vector, clip, cross, shortened
+from flypend.geometry import E3, Numbers, Scalar, Vector, clip, cross, shorten
 from flypend.laws import Computer
 from flypend.model import State, linear_momentum
 from flypend.model.momenta import pull_on_rod, split_force
@@ -56,7 +56,7 @@ DOUBT = 0.005
 MOST = 0.6
 
 
-def observer(believed: Believed, computer: Computer, period: float, thrusts: int) -> ca.Function:
+def observer(nominal: Nominal, computer: Computer, period: float, thrusts: int) -> ca.Function:
     """Build two momentum observers with one bandwidth L, e₃ up, which tell external forces and a scale of the thrust.
 
     Linear momentum P = (M+m) ẋ + m l ẏ obeys Ṗ = −(M+m) g e₃ + f z + F_v + F_b, and H = y × ẏ obeys
@@ -76,7 +76,7 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
 
     Parameters
     ----------
-    believed : Believed
+    nominal : Nominal
         The nominal vehicle.
     computer : Computer
         Source of `observer`, the bandwidth L, and of `force_limit`.
@@ -91,7 +91,7 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
         Inputs: state (24,), thrusts (k,), N, memory (35,) and params. Outputs: memory, the forces (6,) on vehicle and
         bob, N, and the scale, true over modelled thrust, less 1.
     """
-    vehicle, L = believed.vehicle, computer.observer
+    vehicle, L = nominal.vehicle, computer.observer
     packed, given = ca.SX.sym("s", SIZE), ca.SX.sym("f", thrusts)
     memory = ca.SX.sym("memory", RECORD.length)
     begun, momenta, before, estimate, thrust, told = RECORD.split(memory).values()
@@ -109,10 +109,10 @@ def observer(believed: Believed, computer: Computer, period: float, thrusts: int
     # F_v + F_b, and D without its component along the rod.
     limit = computer.force_limit * vehicle.weight
     split = split_force(rest[:3], vehicle.l * cross(rest[3:], s.y), vehicle)
-    forces = [shortened(force, limit) for force in split]
+    forces = [shorten(force, limit) for force in split]
     kept = {"begun": 1, "momenta": following, "known": known, "unknown": unknown, "thrust": thrust, "told": told}
     outputs = ca.cse([ca.densify(RECORD.join(kept)), ca.densify(ca.vertcat(*forces)), scale])
-    return ca.Function("observe", [packed, given, memory, believed.symbols], outputs)
+    return ca.Function("observe", [packed, given, memory, nominal.symbols], outputs)
 
 
 def _learn(

@@ -17,7 +17,6 @@ import casadi as ca
 import numpy as np
 
 from flypend.board import observer as observing
-from flypend.board.believed import Believed
 from flypend.board.command import (
     OUTSIDE,
     command_width,
@@ -30,6 +29,7 @@ from flypend.board.command import (
 from flypend.board.delay import DelayEstimator
 from flypend.board.differences import Differences
 from flypend.board.estimator import Filter, segments_of
+from flypend.board.nominal import Nominal
 from flypend.board.trim import trim
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
@@ -44,13 +44,13 @@ from flypend.plants.sensing import readings_record
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """What the board of `loop`, as `believed`, consists of.
+    """What the board of `loop`, as `nominal`, consists of.
 
     Parameters
     ----------
     loop : Loop
         Vehicle, law and plant.
-    believed : Believed
+    nominal : Nominal
         The nominal vehicle of its equations.
     estimator : Filter or Differences, optional
         What estimates the state; None for a plant that measures the state itself.
@@ -59,7 +59,7 @@ class Parts:
     """
 
     loop: Loop
-    believed: Believed
+    nominal: Nominal
     estimator: Filter | Differences | None
     finding: DelayEstimator | None
 
@@ -109,49 +109,49 @@ class Parts:
     @property
     def symbols(self) -> tuple[Numbers, Numbers, Numbers]:
         """Symbols for its own memory, a measurement (25,) and the parameters."""
-        params = ca.MX.sym("params", self.believed.symbols.numel())
+        params = ca.MX.sym("params", self.nominal.symbols.numel())
         return ca.MX.sym("memory", self.own.length), ca.MX.sym("measurement", 1 + SIZE), params
 
 
-def parts(loop: Loop, believed: Believed | None = None) -> Parts:
-    """Return what the board of `loop` consists of, as `believed`, by default the vehicle of `loop` as numbers."""
-    believed, plant, computer = believed or Believed(loop.vehicle), loop.sampled, loop.law.computer
+def parts(loop: Loop, nominal: Nominal | None = None) -> Parts:
+    """Return what the board of `loop` consists of, as `nominal`, by default the vehicle of `loop` as numbers."""
+    nominal, plant, computer = nominal or Nominal(loop.vehicle), loop.sampled, loop.law.computer
     finds, estimator, finding = finds_delay(loop), None, None
     if plant.sensors is not None:
-        estimator = Filter(loop, believed, finds=finds) if filters(plant) else Differences(loop, believed)
+        estimator = Filter(loop, nominal, finds=finds) if filters(plant) else Differences(loop, nominal)
     if finds:
-        left = 0.0 if computer.models_lag else believed.lag / usable_lead(loop.law, loop.vehicle, plant)
-        given = (computer.latency, computer.delay_reach, 1 / plant.rate, left, plant.believed_delay)
-        finding = DelayEstimator(believed, *given)
-    return Parts(loop, believed, estimator, finding)
+        left = 0.0 if computer.models_lag else nominal.lag / usable_lead(loop.law, loop.vehicle, plant)
+        given = (computer.latency, computer.delay_reach, 1 / plant.rate, left, plant.assumed_delay)
+        finding = DelayEstimator(nominal, *given)
+    return Parts(loop, nominal, estimator, finding)
 
 
-def initial_memory(loop: Loop, rotors: Numbers, estimate: Numbers = None, believed: Believed | None = None) -> Numbers:
+def initial_memory(loop: Loop, rotors: Numbers, estimate: Numbers = None, nominal: Nominal | None = None) -> Numbers:
     """Return the memory (k,) of the board of `loop` before its first step, for current rotor forces `rotors` (n,), N.
 
     Numbers or CasADi symbols. A plant with sensors needs an `estimate` (24,) of the state to begin with, e₃ up, and the
-    `believed` vehicle, by default that of `loop`.
+    `nominal` vehicle, by default that of `loop`.
     """
-    made = parts(loop, believed)
+    made = parts(loop, nominal)
     begun = {"rotors": rotors, "observer": np.zeros(observing.RECORD.length)}
     begun["commands"] = ca.vertcat(*[idle_command(loop, rotors)] * _under_way(loop))
     if made.finding is not None:
         begun["delay"] = made.finding.begin(rotors)
     if made.estimator is not None:
-        symbols = made.believed.symbols
+        symbols = made.nominal.symbols
         begun["estimate"] = made.estimator.begin()(rotors, estimate, symbols if symbols.numel() else [])
     memory = made.memory.join(begun)
     return memory if isinstance(rotors, ca.SX) else memory.full().ravel()
 
 
-def known_to_computer(plant: Plant) -> Plant:
+def computer_view(plant: Plant) -> Plant:
     """Return what a flight computer knows of its `plant`: rate, limits, interface, rate loop; nothing of the world.
 
     With sensors it knows these, and the delay that its estimator assumes.
     """
     sensors = plant.sensors
     if sensors is not None:
-        sensors = sensors.replace(command_delay=plant.believed_delay)
+        sensors = sensors.replace(command_delay=plant.assumed_delay)
     return Plant(
         rate=plant.rate, limits=plant.limits, interface=plant.interface, rate_loop_rate=plant.rate_loop_rate,
         rate_loop_gain=plant.rate_loop_gain, sensors=sensors,
@@ -175,7 +175,7 @@ def _under_way(loop: Loop) -> int:
 
 
 def board(
-    loop: Loop, believed: Believed | None = None, command: ca.Function | None = None, reference: int = 0
+    loop: Loop, nominal: Nominal | None = None, command: ca.Function | None = None, reference: int = 0
 ) -> ca.Function:
     """Build the flight computer of `loop`.
 
@@ -184,7 +184,7 @@ def board(
     loop : Loop
         Vehicle, bound law, sampled plant, and the input gains. Of the plant, only what a flight computer knows is used:
         rate, limits, interface, and rate and gain of the rate loop.
-    believed : Believed, optional
+    nominal : Nominal, optional
         The nominal vehicle of the equations; default the vehicle of `loop`, as numbers.
     command : Function, optional
         Replacement for `law_command`, with the same inputs; default the law about its own reference.
@@ -194,17 +194,18 @@ def board(
     Returns
     -------
     Function
-        (memory, measurement, reference, gains, params) → (memory, command): `predicting`, `law_command`,
-        `remembering` and `trimming` in sequence. A measurement is time (s) and state (24,), e₃ up; with sensors, it is
-        time and readings (see `plants.sensing`), and the estimator's `correct` comes first and its `carry` last.
+        (memory, measurement, reference, gains, params) → (memory, command): `predict_program`, `law_command`,
+        `remember_program` and `trim_program` in sequence. A measurement is time (s) and state (24,), e₃ up; with
+        sensors, it is time and readings (see `plants.sensing`), and the estimator's `correct` comes first and its
+        `carry` last.
     """
-    made = parts(loop, believed)
-    believed, read = made.believed, SIZE if made.estimator is None else readings_record(loop.sampled.sensors).length
-    predict, remember = predicting(made), remembering(made)
-    command = command or law_command(loop, believed, steering(loop.symbolic))
+    made = parts(loop, nominal)
+    nominal, read = made.nominal, SIZE if made.estimator is None else readings_record(loop.sampled.sensors).length
+    predict, remember = predict_program(made), remember_program(made)
+    command = command or law_command(loop, nominal, steering(loop.symbolic))
     whole, measurement = ca.MX.sym("memory", made.memory.length), ca.MX.sym("measurement", 1 + read)
     path, gains = ca.MX.sym("reference", reference), ca.MX.sym("gains", len(loop.parameters))
-    params = ca.MX.sym("params", believed.symbols.numel())
+    params = ca.MX.sym("params", nominal.symbols.numel())
     memory, measured = whole, measurement
     if made.estimator is not None:
         memory = whole[: made.own.length]
@@ -214,13 +215,13 @@ def board(
     estimated = [outside] if filters(loop.sampled) else []
     kept, forces, state, rotors, horizon = predict(memory, measured, params, *estimated)
     # CasADi returns a call whose value is always 0 as a sparse vector, which would leave the last command in place:
-    # this one, and that of `trimming`.
+    # this one, and that of `trim_program`.
     given = ca.densify(command(measured[0], horizon, state, rotors, forces, path, gains, params))
     after = remember(memory, kept, measured, forces, given, params)
     if made.estimator is not None:
-        after = ca.vertcat(after, carrying(made)(corrected, outside, given, memory, after, params))
+        after = ca.vertcat(after, carry_program(made)(corrected, outside, given, memory, after, params))
     names = (["memory", "measurement", "reference", "gains", "params"], ["memory_after", "command"])
-    sent = ca.densify(trimming(made)(after[: made.own.length], given, params))
+    sent = ca.densify(trim_program(made)(after[: made.own.length], given, params))
     return ca.Function("board", [whole, measurement, path, gains, params], [after, sent], *names)
 
 
@@ -237,14 +238,14 @@ def _in_transit(loop: Loop) -> float:
     return 0.0 if finds_delay(loop) else loop.law.computer.latency
 
 
-def predicting(made: Parts) -> ca.Function:
+def predict_program(made: Parts) -> ca.Function:
     """Return (memory, measurement, params) → kept memory, outside (8,), state (24,), rotors (n,), and horizon (s).
 
     State and rotors are those after the horizon, when the next command is taken to act.
 
     With a `Filter` there is one more input, what it finds (8,), in place of the observer; see `command.OUTSIDE`.
     """
-    loop, believed, finding = made.loop, made.believed, made.finding
+    loop, nominal, finding = made.loop, made.nominal, made.finding
     memory, measurement, params = made.symbols
     before, commands = made.own.split(memory), made.commands(memory)
     rotors = thrusts = before["rotors"]
@@ -258,49 +259,49 @@ def predicting(made: Parts) -> ca.Function:
         kept["delay"], horizon, wrenches = finding.find()(before["delay"], state[15:18], rotors, commands[0], params)
         thrusts = wrenches[0, 2]
     if made.observes:
-        observe = observing.observer(believed, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
+        observe = observing.observer(nominal, loop.law.computer, 1 / loop.sampled.rate, thrusts.numel())
         kept["observer"], found["forces"], found["scale"] = observe(state, thrusts, before["observer"], params)
     if finding is not None:
         state = finding.carry()(state, horizon, wrenches, OUTSIDE.join(found), params)
     under_way = [None, *commands]  # this step's command, of age 0, is yet to come
-    forces = total_forces(believed)(state, rotors, OUTSIDE.join(found))
-    state, rotors = _twin(loop, believed, params).advance(state, rotors, under_way, _predictor(loop), forces)
+    forces = total_forces(nominal)(state, rotors, OUTSIDE.join(found))
+    state, rotors = _twin(loop, nominal, params).advance(state, rotors, under_way, _predictor(loop), forces)
     outputs = [made.kept.join(kept), OUTSIDE.join(found), state, rotors, horizon]
     return ca.Function("predict", [memory, measurement, params, *given], outputs)
 
 
-def _twin(loop: Loop, believed: Believed, params: Numbers) -> Twin:
-    return Twin(loop, believed, params, forces=loop.law.computer.observer > 0)
+def _twin(loop: Loop, nominal: Nominal, params: Numbers) -> Twin:
+    return Twin(loop, nominal, params, forces=loop.law.computer.observer > 0)
 
 
-def remembering(made: Parts) -> ca.Function:
+def remember_program(made: Parts) -> ca.Function:
     """Return (memory, kept memory, measurement, outside (8,), command, params) → memory."""
-    loop, believed = made.loop, made.believed
+    loop, nominal = made.loop, made.nominal
     memory, measurement, params = made.symbols
     kept, outside = ca.MX.sym("kept", made.kept.length), ca.MX.sym("outside", OUTSIDE.length)
     command = ca.MX.sym("command", command_width(loop))
     rotors, under_way = memory[made.own.place("rotors")], [command, *made.commands(memory)]
     if loop.sampled.interface == "rates":  # the rate loop's rotor commands depend on the rotation
-        twin = _twin(loop, believed, params)
-        forces = total_forces(believed)(measurement[1:], rotors, outside)
+        twin = _twin(loop, nominal, params)
+        forces = total_forces(nominal)(measurement[1:], rotors, outside)
         _, rotors = twin.advance(measurement[1:], rotors, under_way, _within(loop), forces)
     else:
-        rotors = _advance_rotors(loop, believed, rotors, under_way)
+        rotors = _advance_rotors(loop, nominal, rotors, under_way)
     after = ca.vertcat(rotors, kept, *under_way[:-1])
     return ca.Function("remember", [memory, kept, measurement, outside, command, params], [after])
 
 
-def trimming(made: Parts) -> ca.Function:
+def trim_program(made: Parts) -> ca.Function:
     """Return (memory, command, params) → command to send, trimmed if the board finds a trim."""
     memory, _, params = made.symbols
     command = sent = ca.MX.sym("command", command_width(made.loop))
     if made.finding is not None:
         found = memory[made.own.place("delay.trim")]
-        sent = trim(made.believed, limits=made.loop.sampled.limits)(command, found, params)
+        sent = trim(made.nominal, limits=made.loop.sampled.limits)(command, found, params)
     return ca.Function("trimmed", [memory, command, params], [sent])
 
 
-def carrying(made: Parts) -> ca.Function:
+def carry_program(made: Parts) -> ca.Function:
     """Return (corrected, outside (8,), command, memory before and after, params) → estimate a period later.
 
     Both memories are those without the estimate.
@@ -320,13 +321,13 @@ def carrying(made: Parts) -> ca.Function:
     return ca.Function("carried", [corrected, outside, command, before, after, params], [carried])
 
 
-def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:
+def advance_unmeasured(loop: Loop, nominal: Nominal) -> ca.Function:
     """Return (memory, command) → memory after a period without measurement, under an external `command`.
 
     The observer restarts from its current estimates. Only for commands that are rotor forces: under a rate loop, the
     rotor forces depend on the body's rotation, which was not measured.
     """
-    made = parts(loop, believed)
+    made = parts(loop, nominal)
     memory, command = ca.MX.sym("memory", made.own.length), ca.MX.sym("command", command_width(loop))
     after, under_way = made.own.split(memory), [command, *made.commands(memory)]
     if made.observes:
@@ -334,20 +335,20 @@ def advance_unmeasured(loop: Loop, believed: Believed) -> ca.Function:
     if made.finding is not None:
         after["delay"] = made.finding.skip()(after["delay"], after["rotors"])
     after |= {
-        "rotors": _advance_rotors(loop, believed, after["rotors"], under_way), "commands": ca.vertcat(*under_way[:-1])
+        "rotors": _advance_rotors(loop, nominal, after["rotors"], under_way), "commands": ca.vertcat(*under_way[:-1])
     }  # fmt: skip
     return ca.Function("unmeasured", [memory, command], [made.own.join(after)])
 
 
-def _advance_rotors(loop: Loop, believed: Believed, rotors: Numbers, under_way: Sequence[Any]) -> Numbers:
+def _advance_rotors(loop: Loop, nominal: Nominal, rotors: Numbers, under_way: Sequence[Any]) -> Numbers:
     """Return the modelled `rotors` one period later, under the rotor forces in transit."""
     for age, duration in _within(loop):
-        rotors = _lag(believed, round(1e9 * duration))(rotors, under_way[age])
+        rotors = _lag(nominal, round(1e9 * duration))(rotors, under_way[age])
     return rotors
 
 
-def _lag(believed: Believed, nanoseconds: int) -> ca.Function:
+def _lag(nominal: Nominal, nanoseconds: int) -> ca.Function:
     """Return (rotors, command) → rotors after a time under the command."""
-    rotors, command = ca.SX.sym("r", believed.rotors), ca.SX.sym("u", believed.rotors)
-    _, after = hold(rotors, command, step_timing(believed.lag, nanoseconds / 1e9))
+    rotors, command = ca.SX.sym("r", nominal.rotors), ca.SX.sym("u", nominal.rotors)
+    _, after = hold(rotors, command, step_timing(nominal.lag, nanoseconds / 1e9))
     return ca.Function(f"rotor_lag_{nanoseconds}", [rotors, command], [after])

@@ -17,7 +17,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board.believed import Believed
+from flypend.board.nominal import Nominal
 from flypend.compile.record import Field, Record
 from flypend.geometry import Numbers, Scalar, Vector, clip
 from flypend.laws.inverted_gains import angular_authority
@@ -100,11 +100,11 @@ def follow_strength(
     return RECORD.join(trim | {"strength": strength, "sums": SUMS.join(sums)})
 
 
-def trim(believed: Believed, *, limits: bool) -> ca.Function:
+def trim(nominal: Nominal, *, limits: bool) -> ca.Function:
     """Return (command (n,), memory (14,), params) → forces (n,) to send for it, N, within the `limits`."""
-    command, memory = ca.SX.sym("u", believed.rotors), ca.SX.sym("trim", RECORD.length)
+    command, memory = ca.SX.sym("u", nominal.rotors), ca.SX.sym("trim", RECORD.length)
     thrust, trim = ca.sum1(command), RECORD.split(memory)
-    moment = ca.mtimes(believed.vehicle.mixing(), command)[1:] / (1 + trim["strength"]) - thrust * trim["lever"]
-    sent = rotor_forces(thrust, moment, believed.vehicle, limits)
+    moment = ca.mtimes(nominal.vehicle.mixing(), command)[1:] / (1 + trim["strength"]) - thrust * trim["lever"]
+    sent = rotor_forces(thrust, moment, nominal.vehicle, limits)
     sent = ca.if_else(ca.fabs(thrust) < np.inf, sent, np.nan)  # NaN, which limits would hide
-    return ca.Function("trim", [command, memory, believed.symbols], [ca.densify(sent)])
+    return ca.Function("trim", [command, memory, nominal.symbols], [ca.densify(sent)])

@@ -8,7 +8,7 @@ from typing import Any
 
 import casadi as ca
 
-from flypend.board.believed import Believed
+from flypend.board.nominal import Nominal
 from flypend.geometry import Numbers
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.state import SIZE
@@ -26,20 +26,20 @@ LOOP_STEP = 5e-3
 
 
 class Twin:
-    """Vehicle and rotors of `loop` as `believed`, as function calls on MX symbols with the numbers `params`.
+    """Vehicle and rotors of `loop` as `nominal`, as function calls on MX symbols with the numbers `params`.
 
     `forces` says whether external forces act; `name` begins the names of its programs.
     """
 
-    def __init__(self, loop: Loop, believed: Believed, params: Numbers, *, forces: bool, name: str = "twin") -> None:
+    def __init__(self, loop: Loop, nominal: Nominal, params: Numbers, *, forces: bool, name: str = "twin") -> None:
         self._name = name
-        self._plant, self._believed, self._params, self._forces = loop.sampled, believed, params, forces
+        self._plant, self._nominal, self._params, self._forces = loop.sampled, nominal, params, forces
         self._steps: dict[str, ca.Function] = {}
         self._longest = min(TWIN_STEP, TWIN_TURN / angular_authority(loop.vehicle) ** 0.5)
         self._loop = None
         if loop.sampled.interface == "rates":
             plant = loop.sampled
-            self._loop = rate_loop(believed.vehicle, plant.limits, plant.rate_loop_gain, believed.symbols)
+            self._loop = rate_loop(nominal.vehicle, plant.limits, plant.rate_loop_gain, nominal.symbols)
 
     def advance(
         self, state: Numbers, rotors: Numbers, commands: Sequence[Any], segments: Sequence[Segment], forces: Numbers
@@ -70,12 +70,12 @@ class Twin:
         return self._steps[name]
 
     def _make(self, name: str, durations: Sequence[float]) -> ca.Function:
-        believed, n = self._believed, self._believed.rotors
+        nominal, n = self._nominal, self._nominal.rotors
         packed, rotors, forces = ca.SX.sym("s", SIZE), ca.SX.sym("r", n), ca.SX.sym("F", 6)
         commands = ca.SX.sym("u", n * len(durations))
         held = ca.vertsplit(commands, n)[::-1]
-        ramp, after = hold_in_turn(rotors, held, durations, believed.lag)
-        wrench, outside = ramp.mixed(believed.vehicle.mixing()), forces if self._forces else None
-        moved = cascade_step(packed, wrench, outside, sum(durations), believed.vehicle)
+        ramp, after = hold_in_turn(rotors, held, durations, nominal.lag)
+        wrench, outside = ramp.mixed(nominal.vehicle.mixing()), forces if self._forces else None
+        moved = cascade_step(packed, wrench, outside, sum(durations), nominal.vehicle)
         outputs = ca.cse([ca.densify(moved), ca.densify(after)])
-        return ca.Function(name, [packed, rotors, commands, forces, believed.symbols], outputs)
+        return ca.Function(name, [packed, rotors, commands, forces, nominal.symbols], outputs)

@@ -12,7 +12,7 @@ import click
 
 import flypend as fp
 from flypend.cli.options import LAW_HELP, Output, option, options_of, out_option, path, refuse_idle, style_option
-from flypend.cli.terminal import bold, console, counter, draw, lacking, say, tell_how
+from flypend.cli.terminal import bold, console, counter, draw, is_missing, say, tell_how
 from flypend.errors import InputError, one_of, require
 from flypend.files.staging import staging
 from flypend.files.whole import whole_file
@@ -79,7 +79,7 @@ def run(
         from flypend.flight.live import live_loop
 
         live_loop(flight)
-    movies = shown.figures and not (shown.quick or lacking("movies", check_movies))
+    movies = shown.figures and not (shown.quick or is_missing("movies", check_movies))
     trajectory = fly(flight)
     # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))

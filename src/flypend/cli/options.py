@@ -104,7 +104,7 @@ def name_of(parameter: click.Parameter) -> str:
     return max((*parameter.opts, *parameter.secondary_opts), key=len)
 
 
-def within_bands(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
+def band_worlds(machine: Any, plant: Any, seed: int) -> dict[str, Any]:
     """Return the worlds of --bands by name; `plant` as in a run file. Raises InputError without bands."""
     from flypend.plants import as_sampled
     from flypend.settings.runfile import plant_of

@@ -9,7 +9,7 @@ import click
 
 import flypend as fp
 from flypend.cli.options import option, options_of, out_option, refuse_idle, style_option
-from flypend.cli.terminal import bold, console, counter, lacking
+from flypend.cli.terminal import bold, console, counter, is_missing
 from flypend.files.staging import staging
 
 
@@ -26,7 +26,7 @@ def paper(out: Path, quick: bool, style: str) -> None:
     from flypend.report.paper import reproduce
     from flypend.report.text import findings_table, judgement, summary_table
 
-    movies = not (quick or lacking("movies", check_movies))
+    movies = not (quick or is_missing("movies", check_movies))
     with counter() as tell:
         result = reproduce(out, quick=not movies, style=style, progress=tell)
     console.print(summary_table(result.verdicts))

@@ -17,6 +17,7 @@ from flypend.cli.options import (
     LAW_HELP,
     SENSORS_HELP,
     Output,
+    band_worlds,
     bands_option,
     floor_option,
     laws_option,
@@ -28,9 +29,8 @@ from flypend.cli.options import (
     refuse_idle,
     sensors_option,
     vehicle_option,
-    within_bands,
 )
-from flypend.cli.terminal import bold, console, counter, import_in_background, lacking, resumable, tell_how
+from flypend.cli.terminal import bold, console, counter, import_in_background, is_missing, resumable, tell_how
 from flypend.errors import InputError, number, one_of, require
 from flypend.files.staging import staging
 from flypend.files.whole import FIGURES, save_figure
@@ -110,7 +110,7 @@ def compare(
     names = law or ("inverted", "lqr", "corrected", "detuned")
     laws, batch, machine, settings = chosen.of(names)
     settings = {**settings, "plant": asked} | ({"bands": True} if bands else {})
-    drawn = list(within_bands(machine, asked, chosen.seed).values()) if bands else []
+    drawn = list(band_worlds(machine, asked, chosen.seed).values()) if bands else []
     import_in_background(lambda: import_module("flypend.pictures.studies"))
     with counter() as tell:
         flying = lambda name, done, total: tell(f"flying {name}", done, total)  # noqa: E731
@@ -145,13 +145,13 @@ def ladder(
 
     laws, batch, machine, settings = chosen.of(law or ("inverted", "lqr"))
     if bands:
-        rungs: Mapping[str, AnyPlant] = within_bands(machine, plant_asked("rotors", sensors or "perfect"), chosen.seed)
+        rungs: Mapping[str, AnyPlant] = band_worlds(machine, plant_asked("rotors", sensors or "perfect"), chosen.seed)
     else:
         rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
     flown = {
         name: rung_named(name, rungs)
         for name in rung or rungs
-        if rung or not lacking(f"the rung {name}", partial(plant, rungs[name]))
+        if rung or not is_missing(f"the rung {name}", partial(plant, rungs[name]))
     }
     import_in_background(lambda: import_module("flypend.pictures.studies"))
     with counter() as tell:
@@ -339,7 +339,7 @@ def learn(
     laws, starts = [fp.laws.learned(policy=str(policy)), fp.laws.inverted()], fp.random_starts(runs, HELD_OUT + seed)
     if not bands:  # LQR flies few of these starts as written, too, and a machine takes long to compile
         laws.append(fp.laws.lqr())
-    worlds = list(within_bands(machine, asked, HELD_OUT + seed).values()) if bands else [world]
+    worlds = list(band_worlds(machine, asked, HELD_OUT + seed).values()) if bands else [world]
     comparison = fp.compare(machine, laws, starts, plant=worlds)
     console.print(comparison_table(comparison))
     best = best_of(comparison.ensembles)

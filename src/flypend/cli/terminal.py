@@ -120,7 +120,7 @@ def draw(tasks: Iterable[tuple[str, Callable[[], Any]]]) -> None:
             task()
 
 
-def lacking(what: str, check: Callable[[], Any]) -> bool:
+def is_missing(what: str, check: Callable[[], Any]) -> bool:
     """Whether `check` raises InputError. If so, one line on stderr says that `what` is left out, and what it needs."""
     try:
         check()

@@ -90,9 +90,9 @@ class _Statements:
             return f"({text})" if text.startswith("-") else text
         if not self._is_near(number, at):
             if operation.name == "input":
-                name = self._defined(REAL, self.inputs[operation.arguments[0]][operation.arguments[1]])
+                name = self._define_constant(REAL, self.inputs[operation.arguments[0]][operation.arguments[1]])
             else:
-                name = self._defined(REAL, f"{SCRATCH}[{self.scratch.places[number]}]")
+                name = self._define_constant(REAL, f"{SCRATCH}[{self.scratch.places[number]}]")
             self._known[number] = (name, at)
         return self._known[number][0]
 
@@ -101,7 +101,7 @@ class _Statements:
         known = self._truths.get(number)
         return known or f"({_TRUTHS['ne'].format(self._number(number, at), self._words['zero'])})"
 
-    def _defined(self, kind: str, text: str) -> str:
+    def _define_constant(self, kind: str, text: str) -> str:
         """The name of a new constant."""
         self.lines.append(f"const {kind} v{len(self.lines)} = {text};")
         return f"v{len(self.lines) - 1}"
@@ -114,10 +114,10 @@ class _Statements:
             raise InputError("law", "no function of the C library but the square root", operation.name)
         text = form.format(*taken, **self._words)
         if operation.name in _TRUTHS:
-            truth = self._truths[number] = self._defined("int", text)
+            truth = self._truths[number] = self._define_constant("int", text)
             name = f"({truth} ? {self._words['one']} : {self._words['zero']})"
         else:
-            name = self._defined(REAL, text)
+            name = self._define_constant(REAL, text)
         self._known[number] = (name, number)
         if number in self.scratch.places:
             self.lines.append(f"{SCRATCH}[{self.scratch.places[number]}] = {name};")

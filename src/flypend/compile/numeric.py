@@ -60,7 +60,7 @@ def _buffer(function: ca.Function) -> Callable[..., Any]:
     return call
 
 
-def aligned(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
+def allocate_aligned(shape: tuple[int, ...], kind: Any = np.float64) -> Any:
     """Allocate an array at the start of a cache line, so that rows of eight doubles share no line."""
     size = int(np.prod(shape)) * np.dtype(kind).itemsize
     room = np.empty(size + LINE - 1, dtype=np.uint8)

@@ -190,7 +190,7 @@ class _Builder:
         if None not in values:
             with suppress(ArithmeticError, ValueError):  # undefined, such as division by zero
                 return self.constant(float(FOLD[name](*values)))
-        if (simple := self._simplified(name, arguments, values)) is not None:
+        if (simple := self._simplify(name, arguments, values)) is not None:
             return simple
         if name == "div":
             return self._quotient(*arguments)
@@ -220,7 +220,7 @@ class _Builder:
             return self.do("mul", inverse, inverse)
         return self._put(Operation("div", (self.constant(1.0), number)))
 
-    def _simplified(self, name: str, arguments: tuple[int, ...], values: list[float | None]) -> int | None:
+    def _simplify(self, name: str, arguments: tuple[int, ...], values: list[float | None]) -> int | None:
         """Apply identities (x + 0, x · 0, x + (−y) = x − y, …); None if nothing simplifies."""
         a, b = arguments[0], arguments[-1]
         first, second = values[0], values[-1]
@@ -232,14 +232,14 @@ class _Builder:
             return self._product(a, b, first, second)
         if name == "div" and second is not None and second != 0.0:
             return self.do("mul", a, self.constant(1.0 / second))
-        return self._negated(a) if name == "neg" else None
+        return self._negate(a) if name == "neg" else None
 
     def _sum(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
         """Return what is shorter than a + b, of values `first` and `second` if constant; None if nothing is."""
         if 0.0 in (first, second):
             return b if first == 0.0 else a
         for one, other in ((a, b), (b, a)):
-            if (inner := self._negated(other)) is not None:
+            if (inner := self._negate(other)) is not None:
                 return self.do("sub", one, inner)
         return None
 
@@ -249,7 +249,7 @@ class _Builder:
             return a
         if first == 0.0:
             return self.do("neg", b)
-        return None if (inner := self._negated(b)) is None else self.do("add", a, inner)
+        return None if (inner := self._negate(b)) is None else self.do("add", a, inner)
 
     def _product(self, a: int, b: int, first: float | None, second: float | None) -> int | None:
         """As `_sum`, for a b."""
@@ -274,7 +274,7 @@ class _Builder:
                     return self.do("mul", self.constant(factor * known), x)
         return None
 
-    def _negated(self, number: int) -> int | None:
+    def _negate(self, number: int) -> int | None:
         operation = self.operations[number]
         return operation.arguments[0] if operation.name == "neg" else None
 

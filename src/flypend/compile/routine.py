@@ -129,11 +129,11 @@ class _Builder:
                 results = self._call(called, [work.get(slot, []) for slot in taken])
                 work |= {slot: cells for slot, cells in zip(given, results, strict=True) if slot >= 0}
             else:
-                parts = self._arranged(function, i, [work.get(slot, []) for slot in taken])
+                parts = self._arrange(function, i, [work.get(slot, []) for slot in taken])
                 work |= {slot: cells for slot, cells in zip(given, parts, strict=True) if slot >= 0}
         return outputs
 
-    def _arranged(self, function: ca.Function, i: int, taken: list[list[Cell]]) -> list[list[Cell]]:
+    def _arrange(self, function: ca.Function, i: int, taken: list[list[Cell]]) -> list[list[Cell]]:
         """Output cells of an instruction that only rearranges its inputs."""
         code, node = function.instruction_id(i), function.instruction_MX(i)
         if code == ca.OP_CONST:

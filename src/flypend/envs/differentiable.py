@@ -16,7 +16,7 @@ from flypend.compile.chain import Chain
 from flypend.compile.llvm.stagewise import WIDTH, Stagewise, lanes, stagewise
 from flypend.compile.llvm.worlds import BOUND
 from flypend.envs.kernel import Worlds, in_threads, shares_of
-from flypend.envs.make import made_by
+from flypend.envs.make import environment_for
 from flypend.envs.problem import Environment, Parts
 from flypend.errors import InputError
 from flypend.model.state import SIZE
@@ -60,7 +60,7 @@ class DifferentiableWorlds:
     """
 
     def __init__(self, task: Any = "balance", *, workers: int | None = None, **arguments: Any) -> None:
-        self.env = made_by(type(self), task, arguments)
+        self.env = environment_for(type(self), task, arguments)
         if self.env.plant.floor is not None:
             raise InputError("plant.floor", "none: touching has no derivative", f"{self.env.plant.floor:g}")
         if self.env.vehicle.mount != "gimbal":

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from flypend.building import built
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.worlds import ARGUMENTS, INTEGERS, kernel_module
-from flypend.compile.numeric import aligned
+from flypend.compile.numeric import allocate_aligned
 from flypend.compile.problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
@@ -65,7 +65,7 @@ if hasattr(os, "register_at_fork"):  # a forked process has none of the threads
 
 def _own(array: NDArray[Any]) -> NDArray[Any]:
     """Return a copy of `array` at the start of a cache line: JAX copies any other."""
-    own: NDArray[Any] = aligned(array.shape, array.dtype)
+    own: NDArray[Any] = allocate_aligned(array.shape, array.dtype)
     own[...] = array
     return own
 
@@ -169,7 +169,7 @@ class Worlds:
         if self.late:
             self.seen[:] = recent[:, self.late * k :]
 
-    def seen_last(self, over: NDArray[np.bool_]) -> NDArray[np.float32]:
+    def last_observation(self, over: NDArray[np.bool_]) -> NDArray[np.float32]:
         """Return what a learner gets (count, (history + 1) k) at the end of the worlds `over`; 0 elsewhere.
 
         To be called before `remember`.

@@ -108,7 +108,7 @@ def check_known(task: str | Task, about: Iterable[str], beside: Iterable[str] = 
         raise UnknownArgumentError(error.field, error.expected, got) from None
 
 
-def made_by(owner: type, task: str | Task, arguments: Mapping[str, Any]) -> Environment:
+def environment_for(owner: type, task: str | Task, arguments: Mapping[str, Any]) -> Environment:
     """Return the `environment` of the `task` and `arguments`; those that the `owner` takes itself are known, too."""
     own = signature(owner).parameters.values()
     check_known(task, arguments, [one.name for one in own if one.kind is not one.VAR_KEYWORD])

@@ -9,9 +9,9 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
-from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE, command_width, idle_command
 from flypend.board.estimator import Filter
+from flypend.board.nominal import Nominal
 from flypend.compile.problem import Estimating
 from flypend.compile.program import lower
 from flypend.compile.record import Field, Record
@@ -50,7 +50,7 @@ class Estimates:
         if plant.sensors.rates != "estimated":
             raise InputError("sensors.rates", "'estimated'", repr(plant.sensors.rates))
         self._loop, self._vehicle, self._plant = Loop(vehicle, ACTIONS, plant), vehicle, plant
-        self._filter = Filter(self._loop, Believed(vehicle))
+        self._filter = Filter(self._loop, Nominal(vehicle))
         self._correct, self._carry = self._filter.correct(), self._filter.carry()
         width = command_width(self._loop)
         self._under_way = self._carry.numel_in(2) // width - 1

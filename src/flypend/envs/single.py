@@ -69,7 +69,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         worlds.step(np.asarray(action)[None])
         terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
         over = worlds.terminated | worlds.truncated
-        last = worlds.seen_last(over)
+        last = worlds.last_observation(over)
         worlds.remember(over)
         if not over[0]:
             self._flown.append(worlds.states[0])

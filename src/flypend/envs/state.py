@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.compile.llvm.worlds import BOUND
 from flypend.envs.kernel import Worlds
-from flypend.envs.make import made_by
+from flypend.envs.make import environment_for
 from flypend.envs.rendering import MODES, picture
 from flypend.errors import InputError
 
@@ -53,7 +53,7 @@ class SavedState:
     generator: str
     checksum: int = 0
 
-    def sealed(self) -> SavedState:
+    def with_checksum(self) -> SavedState:
         """Return the same record with the checksum that it should have."""
         text = repr((self.about, self.generator, len(self.flown)))
         return replace(self, checksum=crc32(self.worlds, crc32(self.flown, crc32(text.encode()))))
@@ -80,7 +80,7 @@ class Stateful:
             raise InputError("render_mode", wanted, repr(render_mode))
         earlier = errors.integer("history", history, 0, MOST_KEPT)
         late = errors.integer("observation_delay", observation_delay, 0, MOST_KEPT)
-        self.worlds = Worlds(made_by(type(self), task, arguments), count, workers, earlier, late)
+        self.worlds = Worlds(environment_for(type(self), task, arguments), count, workers, earlier, late)
         self.render_mode = render_mode
         self.metadata = type(self).metadata | {"render_fps": self.worlds.env.rate}
         # Else it is seeded when first used, by each copy differently.
@@ -112,7 +112,7 @@ class Stateful:
         """
         generator = json.dumps([self.np_random.bit_generator.state, self.np_random_seed], default=np.ndarray.tolist)
         about = ("kind", self._kind()), *self.worlds.about.items()
-        return SavedState(about, self.worlds.save(), self._save_flown(), generator).sealed()
+        return SavedState(about, self.worlds.save(), self._save_flown(), generator).with_checksum()
 
     def restore_state(self, state: SavedState) -> None:
         """Restore a `state` that was saved from an environment with the same arguments, and continue from there.
@@ -127,7 +127,7 @@ class Stateful:
         """
         if not isinstance(state, SavedState):
             raise InputError("state", "what save_state returned", type(state).__name__)
-        if state != state.sealed():
+        if state != state.with_checksum():
             raise InputError("state", "what save_state returned", "one that is damaged")
         about = dict(state.about)
         kind = about.pop("kind", "nothing")

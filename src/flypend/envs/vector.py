@@ -74,7 +74,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
 
         With a "reset_mask" (num_envs,) of bool in `options`, only those that it marks; the others stay as they are.
         """
-        which = self._marked(options)
+        which = self._beginning_worlds(options)
         several = isinstance(seed, list | tuple | np.ndarray)
         if not several and seed is not None:
             check_seed("seed", seed)
@@ -100,7 +100,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             anew, over = self._step_and_wait(actions)
         infos: dict[str, Any] = {}
         if self._autoreset is AutoresetMode.SAME_STEP and over.any():
-            infos = {"final_obs": worlds.seen_last(over), "_final_obs": over}
+            infos = {"final_obs": worlds.last_observation(over), "_final_obs": over}
         worlds.remember(anew)
         results = (worlds.rewards, worlds.terminated, worlds.truncated)
         rewards, terminated, truncated = (self._given(result) for result in results)
@@ -137,7 +137,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
     def _kind(self) -> str:
         return f"VectorWorlds, {self._autoreset.value}"
 
-    def _marked(self, options: dict[str, Any] | None) -> NDArray[np.bool_]:
+    def _beginning_worlds(self, options: dict[str, Any] | None) -> NDArray[np.bool_]:
         """Return which worlds (num_envs,) a reset with these options begins."""
         if not options or "reset_mask" not in options:
             return np.ones(self.num_envs, dtype=bool)

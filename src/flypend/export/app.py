@@ -21,7 +21,7 @@ from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
 from flypend.export.source import describe, initializer, literals
-from flypend.export.tested import Room, swing_up_room
+from flypend.export.tested import Room, measure_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
@@ -149,7 +149,7 @@ def export_app(
     if target == "crazyflie":
         own |= _computer(made, rate, planned)
     taken = check_fits(made, texts, BUDGETS[target])
-    room = swing_up_room(law, flown, rate) if height is None else Room(height, height)
+    room = measure_room(law, flown, rate) if height is None else Room(height, height)
     values = values_of(made, "float") | {
         **{name: literal(getattr(flown, own), "float") for name, own in PENDULUM.items()},
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",

@@ -9,8 +9,8 @@ from typing import Any
 
 import casadi as ca
 
-from flypend.board.believed import Believed
 from flypend.board.command import OUTSIDE, finish, found_length, lead_rotors, rescale
+from flypend.board.nominal import Nominal
 from flypend.board.program import advance_unmeasured, board, initial_memory, parts
 from flypend.building import built
 from flypend.compile.c99 import reads
@@ -19,7 +19,7 @@ from flypend.compile.record import Record
 from flypend.compile.routine import Routine, lower_calls
 from flypend.errors import InputError
 from flypend.export import records
-from flypend.export.safe import holding
+from flypend.export.safe import hold_level
 from flypend.laws import BoundLaw, Law
 from flypend.laws.throw import carrying, derivatives
 from flypend.model import State, Vehicle
@@ -139,13 +139,13 @@ def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | 
     record, rotors = records.params_record(vehicle), records.rotors_record(vehicle)
     params = ca.SX.sym("params", record.length)
     stand_in = records.SymbolicVehicle(params, record, vehicle)
-    believed = Believed(stand_in, params)
+    nominal = Nominal(stand_in, params)
     names, constant, steering = _law(_calmed(loop, sensors), params, stand_in)
     loop = replace(loop, parameters=tuple(names))
     functions = {function.name(): function for function in (steering, *_around(loop, params, stand_in))}
     programs = {name: lower(function) for name, function in functions.items()}
     follows = bool(reads(programs["law"], 2))
-    command = _command(loop, believed, steering, functions["carry"], follows=follows)
+    command = _command(loop, nominal, steering, functions["carry"], follows=follows)
     return Interface(
         loop=loop,
         gains=records.gains_record(loop.symbolic, names),
@@ -153,20 +153,20 @@ def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | 
         rotors=rotors,
         constant=constant,
         programs=programs,
-        board=replace(lower_calls(board(loop, believed, command, records.PATH.length)), name="fly"),
-        unmeasured=lower_calls(advance_unmeasured(loop, believed)),
-        memory=parts(loop, believed).memory,
-        sensing=None if sensors is None else _sensing(loop, believed, command, sensors),
+        board=replace(lower_calls(board(loop, nominal, command, records.PATH.length)), name="fly"),
+        unmeasured=lower_calls(advance_unmeasured(loop, nominal)),
+        memory=parts(loop, nominal).memory,
+        sensing=None if sensors is None else _sensing(loop, nominal, command, sensors),
     )
 
 
-def _sensing(loop: Loop, believed: Believed, command: ca.Function, sensors: Sensors) -> Sensing:
+def _sensing(loop: Loop, nominal: Nominal, command: ca.Function, sensors: Sensors) -> Sensing:
     """Return the flight computer of `loop` that reads `sensors`; `command` as in `board`."""
     loop = replace(loop, plant=loop.sampled.replace(sensors=sensors))
-    rotors, state = ca.SX.sym("rotors", believed.rotors), ca.SX.sym("state", SIZE)
-    memory, remembered = parts(loop, believed).memory, ca.densify(initial_memory(loop, rotors, state, believed))
-    begin = ca.Function("begin", [rotors, state, believed.symbols], [ca.cse(remembered)])
-    whole = lower_calls(board(loop, believed, command, records.PATH.length))
+    rotors, state = ca.SX.sym("rotors", nominal.rotors), ca.SX.sym("state", SIZE)
+    memory, remembered = parts(loop, nominal).memory, ca.densify(initial_memory(loop, rotors, state, nominal))
+    begin = ca.Function("begin", [rotors, state, nominal.symbols], [ca.cse(remembered)])
+    whole = lower_calls(board(loop, nominal, command, records.PATH.length))
     return Sensing(sensors, replace(whole, name="fly"), memory, lower(begin), lower(_sound(sensors)))
 
 
@@ -292,29 +292,27 @@ def shift_path(path: Any, time: Any) -> Any:
 # The board --------------------------------------------------------------------------------------------------------
 
 
-def _command(
-    loop: Loop, believed: Believed, steering: ca.Function, carry: ca.Function, *, follows: bool
-) -> ca.Function:
+def _command(loop: Loop, nominal: Nominal, steering: ca.Function, carry: ca.Function, *, follows: bool) -> ca.Function:
     """As `board.command.law_command`, as calls of the functions that the bare law has, along a path of the pivot."""
     t, horizon = ca.MX.sym("t"), ca.MX.sym("horizon")
-    state, rotors = ca.MX.sym("state", SIZE), ca.MX.sym("rotors", believed.rotors)
+    state, rotors = ca.MX.sym("state", SIZE), ca.MX.sym("rotors", nominal.rotors)
     outside, path = ca.MX.sym("outside", OUTSIDE.length), ca.MX.sym("path", records.PATH.length)
-    gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", believed.symbols.numel())
-    found, rescaled, shift = _steps(believed)
+    gains, params = ca.MX.sym("gains", len(loop.parameters)), ca.MX.sym("params", nominal.symbols.numel())
+    found, rescaled, shift = _steps(nominal)
     reference = ca.MX(ca.DM.zeros(records.REFERENCE.length))
     forces, flown = outside[OUTSIDE.place("forces")], found(outside, params)
     if follows:
         reference = carry(shift(path, horizon), forces, flown)
     wrench = rescaled(steering(state, forces, reference, gains, flown), outside)
-    command = finish(loop, believed)(wrench, state, rotors, params)
+    command = finish(loop, nominal)(wrench, state, rotors, params)
     return ca.Function("command", [t, horizon, state, rotors, outside, path, gains, params], [command])
 
 
-def _steps(believed: Believed) -> tuple[ca.Function, ca.Function, ca.Function]:
+def _steps(nominal: Nominal) -> tuple[ca.Function, ca.Function, ca.Function]:
     """(outside, params) → params with the length of the rod as found; `rescale`; (path, time) → `shift_path`."""
     wrench, outside = ca.SX.sym("wrench", 4), ca.SX.sym("outside", OUTSIDE.length)
     path, time = ca.SX.sym("path", records.PATH.length), ca.SX.sym("time")
-    params, vehicle = believed.symbols, believed.vehicle
+    params, vehicle = nominal.symbols, nominal.vehicle
     flown = ca.substitute(params, vehicle.l, found_length(vehicle, outside))
     return (
         _function("found", [outside, params], flown),
@@ -341,7 +339,7 @@ def _around(loop: Loop, params: Any, vehicle: Any) -> list[ca.Function]:
         _function("share", [wrench, params], allocate(wrench[0], wrench[1:], vehicle)),
         _function("quicken", [wanted, modelled, lead, params], quickened),
         _function("gather", [rotors, params], ca.mtimes(vehicle.mixing(), rotors)),
-        holding(loop, vehicle, params),
+        hold_level(loop, vehicle, params),
         _function("rod", [packed], on_sphere),  # ||y| − 1|, |y · ẏ|, |ẏ|
         _function("attitude", [packed], is_rotation),  # ‖RᵀR − 1‖, det R
         _function("begin", [rotors], initial_memory(loop, rotors)),

@@ -15,7 +15,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.board.program import known_to_computer
+from flypend.board.program import computer_view
 from flypend.building import builds
 from flypend.compile.c99 import PRECISIONS, Precision
 from flypend.compile.numeric import as_numpy
@@ -270,7 +270,7 @@ def compiled(law: Law | BoundLaw, vehicle: Vehicle, precision: Precision = "doub
         if loop.vehicle != vehicle:
             raise InputError("vehicle", f"{vehicle.name}, which the law was compiled for", loop.vehicle.name)
         check_plant(loop.sampled)
-        sensors = known_to_computer(loop.sampled).sensors
+        sensors = computer_view(loop.sampled).sensors
         sensors = None if sensors is None else sensors.told  # the same code, whatever is wrong with them
         code = library(bound, vehicle, precision, loop.sampled.rate, sensors)
         return CompiledBoard(code, path, rotors) if sensors is None else CompiledSensors(code, path, rotors)

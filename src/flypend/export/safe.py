@@ -16,14 +16,14 @@ from flypend.plants.loop import Loop
 SHARE = 1 / 2
 
 
-def levelling(loop: Loop) -> tuple[float, float]:
+def levelling_gains(loop: Loop) -> tuple[float, float]:
     """Stiffness (1/s²) and critical damping (1/s) that the rotors of `loop` can follow without lead and prediction."""
     slowness = loop.vehicle.rotor_lag + loop.law.computer.latency + 1 / loop.sampled.rate
     damping = SHARE / slowness
     return (damping / 2) ** 2, damping
 
 
-def holding(loop: Loop, vehicle: Any, params: Any) -> ca.Function:
+def hold_level(loop: Loop, vehicle: Any, params: Any) -> ca.Function:
     """(state (24,), params) → wrench (4,), e₃ up, that turns z up, damps the rates and carries vehicle and bob.
 
     With θ the angle between z and e₃: α = k 2 sin(θ/2) (z × e₃)/|z × e₃| − d ω, which vanishes upside down only there,
@@ -32,7 +32,7 @@ def holding(loop: Loop, vehicle: Any, params: Any) -> ca.Function:
     """
     packed = ca.SX.sym("state", SIZE)
     state = State.symbolic(packed)
-    stiffness, damping = levelling(loop)
+    stiffness, damping = levelling_gains(loop)
     turn = scale(stiffness / ca.sqrt((1 + state.z[2]) / 2 + 1e-3), apply(state.R.T, cross(state.z, E3)))
     moment = moment_for(turn - damping * state.omega, state.omega, vehicle)
     thrust = vehicle.weight * ca.fmax(state.z[2], 0)

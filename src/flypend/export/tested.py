@@ -71,7 +71,7 @@ class Room(NamedTuple):
     aside: float
 
 
-def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
+def measure_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
     """Return the room that `law`, called at `rate` (Hz), takes to swing the rod up on `vehicle`.
 
     Starts hang at rest at 25 headings; vehicle and rod stay within the room with a `MARGIN`. Raises InputError for a
@@ -100,8 +100,8 @@ def swing_up_room(law: Law | BoundLaw, vehicle: Vehicle, rate: float) -> Room:
     lowest = min(motion.x[..., 2].min(), tip[..., 2].min())
     farthest = max(np.hypot(end[..., 0], end[..., 1]).max() for end in (motion.x, tip))
     highest = max(motion.x[..., 2].max(), tip[..., 2].max())
-    return Room(_rounded(-lowest), _rounded(max(farthest, highest)))
+    return Room(_round_up(-lowest), _round_up(max(farthest, highest)))
 
 
-def _rounded(length: float) -> float:
+def _round_up(length: float) -> float:
     return float(STEP * np.ceil(MARGIN * length / STEP))

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.board.believed import Believed
 from flypend.board.command import law_command
+from flypend.board.nominal import Nominal
 from flypend.board.program import board, initial_memory
 from flypend.building import built
 from flypend.compile.c99 import Precision
@@ -122,7 +122,7 @@ def board_step(loop: Loop, law: BoundLaw | None = None) -> ca.Function:
     It flies `law`, by default that of `loop`.
     """
     loop = replace(loop, parameters=())
-    believed = Believed(loop.vehicle)
+    nominal = Nominal(loop.vehicle)
 
     def steer(t: Any, packed: Any, forces: Any, path: Any, gains: Any, vehicle: Any) -> Any:
         """Return the wrench of the law from its predicted state and the reference of now."""
@@ -130,7 +130,7 @@ def board_step(loop: Loop, law: BoundLaw | None = None) -> ca.Function:
         return wrench_from_stream(law or loop.symbolic, vehicle, ca.vertcat(packed, forces), reference)
 
     length = records.PATH.length
-    return board(loop, believed, law_command(loop, believed, steer, length), length)
+    return board(loop, nominal, law_command(loop, nominal, steer, length), length)
 
 
 def scales(vehicle: Vehicle) -> tuple[float, float]:

@@ -87,7 +87,7 @@ def integrate(
                 knots[-1] = hit[0]
                 outcome = Outcome("collided", *hit)
             elif margin is not None and margin(solver.t, solver.y) <= 0:
-                knots[-1] = _crossing(margin, interpolants[-1])
+                knots[-1] = _find_crossing(margin, interpolants[-1])
                 outcome = Outcome("singular", knots[-1], margin_reason)
             elif solver.status == "finished":
                 outcome = Outcome("completed", solver.t)
@@ -106,7 +106,7 @@ def _lost(solver: DOP853, message: str | None, steps: int, max_steps: int) -> Ou
     return None
 
 
-def _crossing(margin: Margin, interpolant: Any) -> float:
+def _find_crossing(margin: Margin, interpolant: Any) -> float:
     """Return the time within the step of `interpolant` at which `margin` reaches zero, to 1e-12 s."""
     before, after = (margin(t, interpolant(t)) for t in (interpolant.t_old, interpolant.t))
     if before <= 0 or after > 0:

@@ -173,11 +173,11 @@ class Flight:
         put("law", Loop(self.vehicle, self.law, self.plant).law)
         if self.seed is None:
             put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)
-        put("times", _increasing(self.times, self.duration))
-        put("gains", self._checked_gains())
+        put("times", _check_times(self.times, self.duration))
+        put("gains", self._check_gains())
         self._check_together()
 
-    def _checked_gains(self) -> Mapping[str, NDArray[np.float64]]:
+    def _check_gains(self) -> Mapping[str, NDArray[np.float64]]:
         if not self.gains:
             return MappingProxyType({})
         if self.single:
@@ -320,7 +320,7 @@ def some_times(times: ArrayLike | None) -> NDArray[np.float64] | None:
     return None if times is None else errors.array("times", times, (None,))
 
 
-def _increasing(times: NDArray[np.float64] | None, duration: float) -> NDArray[np.float64] | None:
+def _check_times(times: NDArray[np.float64] | None, duration: float) -> NDArray[np.float64] | None:
     if (wanted := some_times(times)) is None:
         return None
     if not len(wanted) or np.any(np.diff(wanted) <= 0):

@@ -58,7 +58,7 @@ def touching(
         part = ca.if_else(smallest < 0, place, part)
     if floor is not None:
         high, low = (_heights(packed, vehicle, e3, floor) for packed in (before, after))
-        share, part = _landing(high, low, vehicle, share, part)
+        share, part = _first_touch(high, low, vehicle, share, part)
     return ca.Function("touching", [before, after, period], [ca.cse(ca.vertcat(least, share, part))])
 
 
@@ -68,7 +68,7 @@ def _heights(packed: Numbers, vehicle: Vehicle, e3: E3Direction, floor: float) -
     return low[:, 2] - floor
 
 
-def _landing(
+def _first_touch(
     before: Numbers, after: Numbers, vehicle: Vehicle, share: Numbers, part: Numbers
 ) -> tuple[Numbers, Numbers]:
     """Share and part of the first touch: that of the mount at `share` by `part`, or where a height falls below 0."""

@@ -37,7 +37,7 @@ Content = bytes | bytearray
 Columns = tuple[Any, dict[str, Any]]  # times, and what was measured then by our columns
 
 
-def merged(columns: Sequence[Columns], unit: float, begin: float = 0.0, end: float = np.inf) -> dict[str, Any]:
+def merge(columns: Sequence[Columns], unit: float, begin: float = 0.0, end: float = np.inf) -> dict[str, Any]:
     """Return `columns` that each have times of their own, in a `unit` (s), on all times from `begin` to `end`.
 
     Where a column has no value there is NaN. Column "t" is in s, from the first time.
@@ -87,7 +87,7 @@ def parse_ulog(content: Content, field: str = "log") -> tuple[dict[str, Any], in
     columns.append(commands)
     if BATTERY in topics:
         columns.append(_read_first(topics, field, ("vbat",), (1.0,), {BATTERY: "voltage_v"}))
-    return merged(columns, 1e-6, *_in_air(topics, field)), len(commands[1]), True
+    return merge(columns, 1e-6, *_in_air(topics, field)), len(commands[1]), True
 
 
 def _topics(content: Content, field: str) -> dict[str, dict[str, Any]]:
@@ -204,7 +204,7 @@ def parse_bag(content: Content, field: str = "log") -> tuple[dict[str, Any], int
             times, first = np.unique(np.array(stamps, dtype=float), return_index=True)
             columns.append((times, {name: np.array(values, dtype=float)[first] for name, values in named.items()}))
     assert commands is not None
-    return merged(columns, 1e-9), *commands
+    return merge(columns, 1e-9), *commands
 
 
 def _messages(content: Content, field: str) -> dict[tuple[str, str], list[tuple[int, Any]]]:

@@ -77,7 +77,7 @@ class Identified:
         lines.append(f"{'drag_ratio / I_3':16s} {(low + high) / 2:12.5g}   {low:.5g} to {high:.5g}")
         lines += ["", "prediction errors      rms, over expected, correlation with the next"]
         for name in CHANNELS:
-            rms, ratio, correlation = self._explained(name)
+            rms, ratio, correlation = self._explain(name)
             if np.isfinite(rms):
                 colour = "" if abs(correlation) < WHITE else "  coloured: something is not in the model"
                 lines.append(f"{name:16s} {rms:12.3g} {ratio:10.2f} {correlation:10.2f}{colour}")
@@ -96,7 +96,7 @@ class Identified:
         middle = self.vehicle.drag_ratio / self.vehicle.inertia[2, 2]
         return float(middle * np.exp(-spread)), float(middle * np.exp(spread))
 
-    def _explained(self, name: str) -> tuple[float, float, float]:
+    def _explain(self, name: str) -> tuple[float, float, float]:
         """Return, of a channel's prediction errors, rms, rms over expected, and correlation of each with the next."""
         errors, spreads = (part[:, places(CHANNELS)[name]] for part in (self._fit.last.errors, self._fit.last.spreads))
         known = np.isfinite(errors).all(axis=1)

@@ -87,7 +87,7 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
             errors.only_known(key, given[key], known)
     if isinstance(plant := given.get("plant"), dict):
         # Of the ideal plant, the page keeps the fields of the sampled one for later; ignore them.
-        given["plant"] = "ideal" if plant.get("base") == "ideal" else _sensed(plant)
+        given["plant"] = "ideal" if plant.get("base") == "ideal" else _with_adjustable(plant)
     pokes = _pokes(given.pop("pokes", []))
     start = _start(given.get("start"))
     law = _law(given, own)
@@ -103,7 +103,7 @@ def setting_of(asked: Any, own: OwnLaws = NONE) -> Setting:
     return Setting(flight, law, pokes, start, own[named].where, own[named].stamp)
 
 
-def _sensed(plant: dict[str, Any]) -> dict[str, Any]:
+def _with_adjustable(plant: dict[str, Any]) -> dict[str, Any]:
     """Return the table `plant` with sensors whose defects are adjustable, so that a size compiles nothing.
 
     Its `defects` are sizes in place of those of the suite; each flight draws what lasts from them.

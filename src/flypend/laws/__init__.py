@@ -60,3 +60,7 @@ def __getattr__(name: str) -> Any:
     if name not in LAWS:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return LAWS[name]()
+
+
+def __dir__() -> list[str]:
+    return sorted({*__all__, *LAWS})

@@ -201,7 +201,7 @@ class BoundLaw(Feedback):
             raise errors.InputError("law", "almost_global, on its own path", self.name)
         return self.certify(self)
 
-    def calmed(self, share: float) -> BoundLaw:
+    def calm_by(self, share: float) -> BoundLaw:
         """Return the law with default gains moved by `share`, 0 to 1, to those that tremble least, near its reference.
 
         Gains that were given stay.

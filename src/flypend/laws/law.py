@@ -156,7 +156,7 @@ class Law(Feedback):
         if calm is None or not set(calm(vehicle, 1.0)) - set(self.given):
             return None
 
-        def calmed(share: float) -> BoundLaw:
+        def calm_by(share: float) -> BoundLaw:
             bound = self.bind(vehicle)
             if share == 0:
                 return bound
@@ -164,4 +164,4 @@ class Law(Feedback):
             ratios = {name: value / bound.gains[name] for name, value in wanted.items()}
             return replace(bound, prepared={**bound.prepared, "calming": ratios}, calm=share)
 
-        return calmed
+        return calm_by

@@ -116,9 +116,9 @@ class Machines:
 
     def shares(self, hover: Any) -> Any:
         """Return the shares (steps, count) of the range that the law holds for hover, for those of `Flown.hover`."""
-        believed, true = hover.T
+        nominal, true = hover.T
         since = self.course.period * np.arange(self.course.steps)[:, None]
-        return true + (believed - true) * np.exp(-GAINS["observer"].default * since)
+        return true + (nominal - true) * np.exp(-GAINS["observer"].default * since)
 
     def errors(self, rng: np.random.Generator, count: int) -> Any:
         """Return local errors (steps + 1, 18, count) of the estimates of a flight, in own units."""
@@ -147,19 +147,19 @@ class Machines:
 
 def machine_of(course: Course, world: Sampled, delay: float) -> tuple[Any, Any, Any]:
     """Return numbers, those of the flight, and shares of hover of the machine in `world`, `delay` seconds late."""
-    believed, true = course.vehicle, world.true_vehicle(course.vehicle)
-    units, own = Units.of(believed), Units.of(true)
+    nominal, true = course.vehicle, world.true_vehicle(course.vehicle)
+    units, own = Units.of(nominal), Units.of(true)
     n, h, late = len(true.rotor_spins), course.period, max(delay, LEAST_DELAY * course.period)
     hover = np.full(n, true.weight / n)
     sagged = np.array(sag_forces(ca.DM(hover), true.rotor_limits[1], world.sag)).ravel() / hover  # battery as in hover
     strength = sagged * world.strength
     lag = true.rotor_lag * (1 + world.spin_up) / 2
-    lead = 1 / -np.expm1(-h / believed.rotor_lag) if believed.rotor_lag > 0 else 1.0
+    lead = 1 / -np.expm1(-h / nominal.rotor_lag) if nominal.rotor_lag > 0 else 1.0
     timings = [step_timing(lag / own.time, part / own.time) for part in (late, h - late)]
-    modelled = step_timing(believed.rotor_lag / own.time, h / own.time)
-    low, high = (limit * strength / own.force for limit in believed.rotor_limits)
+    modelled = step_timing(nominal.rotor_lag / own.time, h / own.time)
+    low, high = (limit * strength / own.force for limit in nominal.rotor_limits)
     flight = [*timings, modelled, [lead, units.length / own.length, units.time / own.time], low, high]
-    least, most = believed.rotor_limits
-    levels = np.array([believed.weight, true.weight / strength.mean()]) / n
+    least, most = nominal.rotor_limits
+    levels = np.array([nominal.weight, true.weight / strength.mean()]) / n
     shares = np.clip((levels - least) / (most - least), LEAST_SHARE, 1 - LEAST_SHARE)
     return own.numbers(true), np.concatenate(flight), shares

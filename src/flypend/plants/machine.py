@@ -46,7 +46,7 @@ def is_wrong(plant: Plant) -> bool:
     return bool(plant.mismatch.keys() & set(RATIOS)) or plant.strength != 1.0 or plant.sag > 0
 
 
-def as_believed(plant: Plant) -> Plant:
+def as_nominal(plant: Plant) -> Plant:
     """Return `plant` with the numbers of `machine_numbers` as the law believes them."""
     mismatch = {name: ratio for name, ratio in plant.mismatch.items() if name not in RATIOS}
     return plant.replace(mismatch=mismatch, strength=1.0, sag=0.0)

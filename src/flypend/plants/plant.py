@@ -290,7 +290,7 @@ class Sampled:
         return hash(repr(self))
 
     @property
-    def believed_delay(self) -> float:
+    def assumed_delay(self) -> float:
         """The delay (s) from measurement to command that an estimator on board assumes."""
         given = None if self.sensors is None else self.sensors.command_delay
         return float(self.delay if given is None else given)

@@ -71,16 +71,16 @@ def calm(law: BoundLaw, plant: AnyPlant) -> BoundLaw:
     if law.calmer is None:
         return law
     if not isinstance(plant, Sampled) or plant.sensors is None or plant.sensors.rates != "estimated":
-        return law.calmed(0.0)
-    return _calm(law.calmed(0.0), plant.sensors.told, 1 / plant.rate, plant.believed_delay)
+        return law.calm_by(0.0)
+    return _calm(law.calm_by(0.0), plant.sensors.told, 1 / plant.rate, plant.assumed_delay)
 
 
 @lru_cache(maxsize=64)
 def _calm(law: BoundLaw, sensors: Sensors, period: float, delay: float) -> BoundLaw:
     """Return `law` with the least share of calm with which it trembles by no more than `CALM_TREMOR`; else with all."""
-    gains, prepared = tuple(law.gains.items()), repr(law.calmed(1.0).prepared)
+    gains, prepared = tuple(law.gains.items()), repr(law.calm_by(1.0).prepared)
     steering = _Steering(law.control, law.vehicle, law.computer, gains, prepared, law)
-    return law.calmed(_share(steering, sensors, period, delay))
+    return law.calm_by(_share(steering, sensors, period, delay))
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ def _share(steering: _Steering, sensors: Sensors, period: float, delay: float) -
     light = vehicle.replace(**{name: share * getattr(vehicle, name) for name, share in LIGHT.items()})
 
     def trembles(step: int) -> bool:
-        calmed = law.calmed(step / SHARES)
+        calmed = law.calm_by(step / SHARES)
         return any(tremor(calmed, sensors, period, delay, flown).axis > CALM_TREMOR for flown in (vehicle, light))
 
     if not trembles(0):
@@ -125,7 +125,7 @@ def too_noisy(law: BoundLaw, plant: AnyPlant) -> str:
     sensors, calmed = plant.sensors, calm(law, plant)
 
     def trembles(sensors: Sensors) -> float:
-        return tremor(calmed, sensors, 1 / plant.rate, plant.believed_delay).axis
+        return tremor(calmed, sensors, 1 / plant.rate, plant.assumed_delay).axis
 
     now = trembles(sensors)
     if not MOST_TREMOR < now < np.inf:
@@ -229,9 +229,9 @@ def _feedback(law: BoundLaw) -> Numbers:
 def _filtered(A: Numbers, sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:
     """Return the matrix of a step of the estimator's error e, and the covariance of what is added to it."""
     H, R = _readings(A, sensors, period)
-    felt, believed = _driven(sensors, vehicle, period)
+    felt, nominal = _driven(sensors, vehicle, period)
     moved, variances = exponential(A * period), R / period
-    P = _riccati(moved, H, variances / UNIT, believed * period / UNIT) * UNIT
+    P = _riccati(moved, H, variances / UNIT, nominal * period / UNIT) * UNIT
     L = np.linalg.solve(H @ P @ H.T + np.diag(variances), H @ P).T
     kept = np.eye(len(A)) - L @ H
     return kept @ moved, kept @ felt @ kept.T * period + L * variances @ L.T

@@ -181,7 +181,7 @@ def search(
 
     `progress` is called with (name, done, total), in searches.
     """
-    believed, stop = count_of(flight).successes, Event()
+    nominal, stop = count_of(flight).successes, Event()
     sides = [(quantity, sign) for quantity in wanted for sign in ((1.0, -1.0) if quantity.both else (1.0,))]
 
     def tell(done: int, total: int) -> None:
@@ -193,7 +193,7 @@ def search(
     for quantity in wanted:
         above = next(sides_found)
         below = next(sides_found) if quantity.both else _Side({}, np.nan, False)
-        counts = {quantity.nominal: believed} | above.counts | below.counts
+        counts = {quantity.nominal: nominal} | above.counts | below.counts
         values = sorted(counts)
         margins[quantity.name] = Margin(
             quantity.name, quantity.unit, quantity.nominal, tuple(values), tuple(counts[value] for value in values),

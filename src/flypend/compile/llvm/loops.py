@@ -40,7 +40,7 @@ def once(program: Program) -> Definition:
     return lambda lanes, name: define(lanes, replace(program, name=name), inline=True, visible=True)
 
 
-def apart(program: Program, *, exact: bool = False) -> Definition:
+def isolate(program: Program, *, exact: bool = False) -> Definition:
     """Define `program` as a function whose rounding does not depend on the loop's; `exact` as in `emit.define`."""
     return lambda lanes, name: define(lanes, replace(program, name=name), exact=exact, visible=True)
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.emit import Lanes, define_routine
 from flypend.compile.llvm.loops import Constants, LoopModule
-from flypend.compile.numeric import aligned
+from flypend.compile.numeric import allocate_aligned
 from flypend.compile.routine import Routine, lower_calls
 
 WIDTH = 8
@@ -28,7 +28,7 @@ WIDTH = 8
 
 def lanes(*shape: int, width: int = WIDTH) -> NDArray[np.float64]:
     """Return zeros of this `shape` with a last axis of `width` lanes, for a `Stagewise` of that width."""
-    made: NDArray[np.float64] = aligned((*shape, width))
+    made: NDArray[np.float64] = allocate_aligned((*shape, width))
     made[...] = 0.0
     return made
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from flypend.compile.llvm.loops import Constants, Definition, LoopModule, apart
+from flypend.compile.llvm.loops import Constants, Definition, LoopModule, isolate
 from flypend.compile.llvm.random import whole_blocks
 from flypend.compile.problem import WorldsProblem
 from flypend.model.state import SIZE
@@ -32,12 +32,12 @@ def kernel_module(problem: WorldsProblem, width: int) -> LoopModule:
 
 
 def _programs(problem: WorldsProblem) -> dict[str, Definition]:
-    programs = {name: apart(getattr(problem, name)) for name in ("begin", "step", "observe", "judge")}
-    programs["command"] = apart(problem.command, exact=not problem.inner)  # the forces asked for, to the bit
+    programs = {name: isolate(getattr(problem, name)) for name in ("begin", "step", "observe", "judge")}
+    programs["command"] = isolate(problem.command, exact=not problem.inner)  # the forces asked for, to the bit
     if (touch := problem.touch) is not None:
-        programs |= {"room": apart(touch.room), "touching": apart(touch.touching)}
+        programs |= {"room": isolate(touch.room), "touching": isolate(touch.touching)}
     if (own := problem.estimating) is not None:
-        programs |= {"first_estimate": apart(own.first), "carry": apart(own.carry), "sense": apart(own.sense)}
+        programs |= {"first_estimate": isolate(own.first), "carry": isolate(own.carry), "sense": isolate(own.sense)}
     return programs
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend.compile.llvm.jit import Native
-from flypend.compile.numeric import aligned
+from flypend.compile.numeric import allocate_aligned
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
 from flypend.flight.kernels.stopping import Word, heard
@@ -97,7 +97,7 @@ class Flown:
             end=np.empty(runs),
             code=np.empty(runs, dtype=np.int64),
             reductions=np.empty((runs, judged)) if judged else None,
-            samples=None if samples is None else aligned((runs, *samples)),
+            samples=None if samples is None else allocate_aligned((runs, *samples)),
             steps=np.zeros(runs, dtype=np.int64),
             clearance=np.empty(runs) if touching else None,
             part=np.empty(runs, dtype=np.int64) if touching else None,

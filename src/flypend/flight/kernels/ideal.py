@@ -197,13 +197,13 @@ def ideal_problem(loop: Loop, criterion: Criterion) -> Problem:
         rates=lower(ca.Function("rates", inputs, [symbols.rates, ca.densify(wrench)])),
         project=lower(_projection(size)),
         margin=_margin(symbols, law, inputs),
-        judging=_judging(vehicle, law, criterion, size),
+        judging=_judge(vehicle, law, criterion, size),
         # Entry 24 of what touches is the thrust: the first of the wrench, wherever it stands.
         touch=touch_of(vehicle, law.e3, by_rotors=False, floor=loop.plant.floor),
     )
 
 
-def _judging(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, size: int) -> Judging:
+def _judge(vehicle: Vehicle, law: BoundLaw, criterion: Criterion, size: int) -> Judging:
     """Return `criterion` as gauges of the state, and the rotor forces of a wrench."""
     t, s, s_dot = ca.SX.sym("t"), ca.SX.sym("s", size), ca.SX.sym("s_dot", size)
     state, rates = State.symbolic(s), State.symbolic(s_dot)

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.board.believed import Believed
+from flypend.board.nominal import Nominal
 from flypend.building import built
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.runge_kutta import COMPLETED
 from flypend.compile.llvm.sampled import ARGUMENTS
 from flypend.compile.llvm.target import native
-from flypend.compile.numeric import aligned, as_numpy
+from flypend.compile.numeric import allocate_aligned, as_numpy
 from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
 from flypend.errors import InputError
@@ -52,7 +52,7 @@ def pieces_problem(loop: Loop, criterion: Criterion) -> SampledProblem:
     Raises InputError for a law that is not compiled, or a plant that is not simulated by the built-in equations.
     """
     made = replace(loop, plant=pieces_structure(loop.sampled))
-    problem = sampled_problem(made, criterion, Believed.limited(loop.vehicle))
+    problem = sampled_problem(made, criterion, Nominal.limited(loop.vehicle))
     strike = lower(struck(made.sampled.true_vehicle(loop.vehicle)))
     seen = None if problem.measure is None else lower(measurement(moved=True))
     return replace(problem, measure=seen, resuming=Resuming(strike, STRETCHES, depth(made.sampled)), flown=())
@@ -70,7 +70,7 @@ def pieces_structure(plant: Sampled) -> Sampled:
     if sensors is None:
         noise = noise or Noise()
     else:
-        sensors = sensors.replace(command_delay=plant.believed_delay)
+        sensors = sensors.replace(command_delay=plant.assumed_delay)
         if {"untold_latency", "latency_jitter"} & set(sensors.adjustable):
             longest = max(sensors.untold_latency, LONGEST_SHIFT - sensors.latency_jitter)
             sensors = sensors.replace(untold_latency=longest)
@@ -121,7 +121,7 @@ class PiecewiseFlight:
             "starts": begin[None], "parameters": inputs_of(loop, None, 1).copy(), "seeds": np.array([seed]), "runs": 1,
             "reductions": np.zeros((1, len(JUDGED))), "final": np.zeros((1, SIZE)), "end": np.zeros(1),
             "status": np.zeros(1, dtype=np.int64), "clearance": np.zeros(1), "part": np.zeros(1, dtype=np.int64),
-            "stop": np.zeros(1, dtype=np.int64), "context": aligned((kernel.room // 8,)),
+            "stop": np.zeros(1, dtype=np.int64), "context": allocate_aligned((kernel.room // 8,)),
             "mujoco": None,
         }  # fmt: skip
         self._plant: NDArray[np.float64] = self._turn(np.concatenate(list(self._knobs.values())))

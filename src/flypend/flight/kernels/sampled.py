@@ -13,8 +13,8 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from flypend.board.believed import Believed
 from flypend.board.command import idle_command
+from flypend.board.nominal import Nominal
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm import jit
 from flypend.compile.llvm.loops import LoopModule
@@ -39,7 +39,7 @@ from flypend.plants.defect_program import size_numbers
 from flypend.plants.defects import blank
 from flypend.plants.equations import rotor_step
 from flypend.plants.loop import Loop
-from flypend.plants.machine import as_believed, is_wrong, machine_numbers
+from flypend.plants.machine import as_nominal, is_wrong, machine_numbers
 from flypend.plants.measurement import gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.motors import motor_timing
 from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, from_mujoco, substeps
@@ -178,7 +178,7 @@ def _serves_any_machine(loop: Loop) -> bool:
 def _compiled(loop: Loop) -> tuple[Plant, bool]:
     """Return the `structure` of the plant of `loop`, and whether it serves any machine."""
     common = _serves_any_machine(loop)
-    return structure(as_believed(loop.sampled) if common else loop.sampled), common
+    return structure(as_nominal(loop.sampled) if common else loop.sampled), common
 
 
 def plant_numbers(loop: Loop) -> Numbers:
@@ -248,11 +248,11 @@ def write_sampled(
 
 
 def sampled_problem(
-    loop: Loop, criterion: Criterion, believed: Believed | None = None, *, any_machine: bool = False
+    loop: Loop, criterion: Criterion, nominal: Nominal | None = None, *, any_machine: bool = False
 ) -> SampledProblem:
     """Return the flights of `loop` and `criterion` as programs.
 
-    `believed` is as in `flypend.board.program.board`, `any_machine` as in `rotor_step`.
+    `nominal` is as in `flypend.board.program.board`, `any_machine` as in `rotor_step`.
     """
     vehicle, plant = loop.vehicle, loop.sampled
     true = plant.true_vehicle(vehicle)
@@ -267,7 +267,7 @@ def sampled_problem(
         world, timing = MujocoProblem(seen, _is_filtered(loop), MAX_FORCE, *effects), 1 + STEP_NUMBERS
     on_board = rate_loop(vehicle, plant.limits, plant.rate_loop_gain, name="loop_of_world")
     return SampledProblem(
-        board=lower_calls(board(loop, believed)),
+        board=lower_calls(board(loop, nominal)),
         begin=_begin(loop),
         world=world,
         loop=lower(on_board) if rates else None,

@@ -252,8 +252,8 @@ def _group_at(path: Path) -> Any:
 
 def _seal(attributes: Mapping[str, Any]) -> str:
     """Return the digest of all attributes but the id, which says nothing about the runs, and the seal itself."""
-    sealed = {name: value for name, value in attributes.items() if name not in ("id", "seal")}
-    return hashlib.sha256(json.dumps(sealed, sort_keys=True).encode()).hexdigest()
+    with_checksum = {name: value for name, value in attributes.items() if name not in ("id", "seal")}
+    return hashlib.sha256(json.dumps(with_checksum, sort_keys=True).encode()).hexdigest()
 
 
 def _study_in(path: Path, attributes: Mapping[str, Any]) -> Study:

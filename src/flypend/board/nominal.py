@@ -13,7 +13,7 @@ from flypend.model.altered import Altered
 
 
 @dataclass(frozen=True)
-class Believed:
+class Nominal:
     """The nominal vehicle, with numeric or symbolic parameters.
 
     Parameters
@@ -32,7 +32,7 @@ class Believed:
     lag = property(lambda self: self.vehicle.rotor_lag, doc="Time constant of the rotors, s.")
 
     @classmethod
-    def limited(cls, vehicle: Vehicle) -> Believed:
+    def limited(cls, vehicle: Vehicle) -> Nominal:
         """The nominal `vehicle` with its parameters as constants, and symbols for least and largest rotor force, N."""
         limits = ca.SX.sym("limits", 2)
         return cls(Altered(vehicle, rotor_limits=(limits[0], limits[1])), limits)

@@ -1,7 +1,7 @@
 """The certified sets on docs/laws/theorem.md: `python -m benchmarks.certified`, minutes; most of them through a lag."""
 
 import flypend as fp
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 
 
 def main():

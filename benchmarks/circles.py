@@ -20,7 +20,7 @@ from flypend.errors import InputError, one_of
 from flypend.flight.simulate import simulate
 from flypend.geometry import norm
 from flypend.laws import Law, law_names, references
-from flypend.laws.named import FACTORIES, follows
+from flypend.laws.by_name import FACTORIES, follows
 from flypend.model import State, vehicle
 from flypend.plants import MOTION_CAPTURE, as_sampled
 from flypend.report.studies import short

@@ -19,7 +19,7 @@ from benchmarks.vehicles import DURATION, numbers, random_vehicle
 from flypend.laws import axis, inverted_gains, throw
 from flypend.laws.gain import Gain
 from flypend.laws.inverted_gains import GAINS, NUMBERS, PUMPING, Scales
-from flypend.laws.throw import carrying
+from flypend.laws.throw import bob_path
 from flypend.studies.starts import random_starts
 
 inverted = import_module("flypend.laws.inverted")
@@ -108,7 +108,7 @@ def open_law():
     gains = [*GAINS.values(), *constants, *own]
     return fp.Law(
         name="inverted", e3="up", gains=gains, control=control, computer=law.computer, uses_forces=True,
-        reference=law.reference, path=carrying(law.reference), prepare=law.prepare,
+        reference=law.reference, path=bob_path(law.reference), prepare=law.prepare,
     )  # fmt: skip
 
 

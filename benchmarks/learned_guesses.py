@@ -21,7 +21,7 @@ import flypend as fp
 from flypend.planning.durations import HORIZONS
 from flypend.planning.multistart import Found, Guess, Job
 from flypend.planning.problem import Request, request
-from flypend.planning.search import finished, improved, prepare, together
+from flypend.planning.search import finish, improve, prepare, together
 
 Array = NDArray[np.float64]
 
@@ -90,16 +90,16 @@ def asked_of(start: fp.State) -> Request:
 def pumped(asked: Request) -> Found:
     """Return what the race of all pumps finds, solved to the end."""
     found = together(asked, HORIZON, math.inf)
-    return finished(Job(asked, found.style), HORIZON, found, math.inf)
+    return finish(Job(asked, found.style), HORIZON, found, math.inf)
 
 
 def from_library(asked: Request, library: list[Member], count: int) -> Found:
     """Return the best that comes of the `count` nearest members, solved to the end."""
     own = looks(asked.start)
     near = sorted(library, key=lambda member: float(np.linalg.norm(member.looks - own)))[:count]
-    tried = [improved(Job(asked, i), HORIZON, headed(member, asked.start), math.inf) for i, member in enumerate(near)]
+    tried = [improve(Job(asked, i), HORIZON, headed(member, asked.start), math.inf) for i, member in enumerate(near)]
     best = min(tried, key=lambda found: found.cost)
-    return finished(Job(asked, best.style), HORIZON, best, math.inf)
+    return finish(Job(asked, best.style), HORIZON, best, math.inf)
 
 
 def main() -> None:

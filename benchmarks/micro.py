@@ -31,7 +31,7 @@ from benchmarks.results import record
 from flypend.export.plan import COARSER, PHASES, export_nmpc, programs_of, table_of
 from flypend.flight.metrics import wilson
 from flypend.laws import Controller
-from flypend.planning.planner import coarsened
+from flypend.planning.planner import coarsen
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
 
 DURATION = 5.0  # s
@@ -103,7 +103,7 @@ def _address(array: Any) -> ctypes.c_void_p:
 
 def fly(code: ctypes.CDLL, plan: fp.Plan, start: fp.State, plant: fp.Plant, latency: float) -> tuple[Any, OnBoard]:
     """Return the flight from a `start` by `code` that begins with `plan`, and its computer."""
-    coarse, _ = coarsened(plan, COARSER)
+    coarse, _ = coarsen(plan, COARSER)
     table = np.concatenate([part.ravel() for part in table_of(coarse)]).astype(np.float32)
     computers = []
 
@@ -151,7 +151,7 @@ def flights(code: ctypes.CDLL, name: str, runs: int, seed: int, beside: bool) ->
 def costs(folder: Path) -> list[str]:
     """Return lines of costs: operations, memory, and what share of a processor they take."""
     plan = hanging()
-    programs, layout = programs_of(coarsened(plan, COARSER)[1])
+    programs, layout = programs_of(coarsen(plan, COARSER)[1])
     counted = {name: sum(program.counts().values()) for name, program in programs.items()}
     record("operations", **counted, slopes=layout.of_slopes)
     lines = [f"operations: {counted}, entries of F {layout.of_slopes}"]

@@ -39,7 +39,7 @@ from flypend.envs.task import Begin, Moment, Task
 from flypend.errors import InputError
 from flypend.geometry import E3
 from flypend.model import State, Vehicle
-from flypend.model.shipped import vehicle as vehicle_named
+from flypend.model.by_name import vehicle as vehicle_named
 
 PERIOD = 0.016  # s
 LOWEST = 0.2  # m

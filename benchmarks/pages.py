@@ -25,8 +25,8 @@ from playwright.sync_api import sync_playwright
 import flypend as fp
 from benchmarks.frames import AT_REST
 from benchmarks.lab import OPTIONS, SHOWN
-from flypend.lab.alone import chapters_page
 from flypend.lab.controls import figures, story
+from flypend.lab.standalone import chapters_page
 from flypend.model.table import vehicle_names
 from flypend.palette import CAUSES, SERIES
 from flypend.pictures.machine import machine_figure

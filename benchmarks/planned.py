@@ -19,7 +19,7 @@ import numpy as np
 import flypend as fp
 from benchmarks.vehicles import DURATION, WANTED, numbers, random_vehicle
 from flypend.flight.metrics import wilson
-from flypend.flight.tasks import touching
+from flypend.flight.tasks import touches
 
 HEHN = fp.vehicle("hehn2011")
 LONG, LEAST = 12.0, 3.0  # √(l/g), and s at least, of hover after a plan, which must stand in the last second
@@ -79,7 +79,7 @@ def hubbed(vehicle: fp.Vehicle) -> fp.Vehicle:
 def apart(vehicle: fp.Vehicle, runs: int, seed: int) -> fp.State:
     """Return the first `runs` random starts at which the rod touches nothing."""
     starts = fp.random_starts(40 * runs, seed)
-    return starts[np.flatnonzero(~touching(vehicle, starts))[:runs]]
+    return starts[np.flatnonzero(~touches(vehicle, starts))[:runs]]
 
 
 def random(asked: argparse.Namespace) -> None:
@@ -137,7 +137,7 @@ def windows(_: argparse.Namespace) -> None:
         sizes = ", ".join(f"{each.width:g} m by {each.height:g} m" for each in openings)
         room = min(float(np.min(each.room(plan.states, vehicle))) for each in openings)
         lean = np.degrees(np.arccos(np.min(plan.y[:, 2])))
-        print(f"{vehicle.mount}, {sizes}: {plan.told}; room {1e3 * room:.0f} mm, lean to {lean:.0f}°", flush=True)
+        print(f"{vehicle.mount}, {sizes}: {plan.summary}; room {1e3 * room:.0f} mm, lean to {lean:.0f}°", flush=True)
 
 
 def low(asked: argparse.Namespace) -> None:
@@ -157,7 +157,8 @@ def low(asked: argparse.Namespace) -> None:
         )
         found.append(bool(plan))
         print(
-            f"{i:2d} {width:.2f} m by {height:.2f} m, at most {np.degrees(lean):.0f}°: guess {plan.guess}, {plan.told}",
+            f"{i:2d} {width:.2f} m by {height:.2f} m, at most {np.degrees(lean):.0f}°: guess {plan.guess}, "
+            f"{plan.summary}",
             flush=True,
         )
     print(f"planned {share(sum(found), asked.runs)}")

@@ -264,7 +264,7 @@ def improve(objective: str, starts: Sequence[fp.State]) -> None:
     for i, start in enumerate(starts):
         asked, plan = _asked(objective, start), fp.plan(VEHICLE, start, objective, time_limit=PATIENT)
         if plan.status != "converged":
-            print(f"  {i}: {plan.told}", flush=True)
+            print(f"  {i}: {plan.summary}", flush=True)
             continue
         converged, N = converged + 1, len(plan.commands)
         if N not in solvers:

@@ -12,7 +12,7 @@ from pathlib import Path
 from docutils import nodes
 from sphinx.application import Sphinx
 
-from flypend.lab.alone import chapters_page
+from flypend.lab.standalone import chapters_page
 
 PAGE = "gallery/chapters.html"
 ALL = "chapters"  # the picture of the page with all of them

@@ -30,9 +30,9 @@ from flypend.laws import Law as Law
 from flypend.laws.linearise import linearise as linearise
 from flypend.model.air import Air as Air
 from flypend.model.body import Body as Body
+from flypend.model.by_name import vehicle as vehicle
 from flypend.model.rod import rod_with_bob as rod_with_bob
 from flypend.model.rod import uniform_rod as uniform_rod
-from flypend.model.shipped import vehicle as vehicle
 from flypend.model.state import State as State
 from flypend.model.state import Wrench as Wrench
 from flypend.model.vehicle import Vehicle as Vehicle

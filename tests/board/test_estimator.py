@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.board import error_state, felt
+from flypend.board import accelerometer, error_state
 from flypend.board.computer import SteppedBoard
 from flypend.board.estimator import Filter, steady_gain
-from flypend.board.expected import Expected
 from flypend.board.history import QUANTITIES, History
+from flypend.board.innovation import Expected
 from flypend.board.nominal import Nominal
 from flypend.board.program import board, initial_memory
 from flypend.compile.llvm.random import normals
@@ -136,7 +136,7 @@ def test_a_bias_of_the_accelerometer_drives_the_errors_that_the_force_would_that
         after = error_state.propagate(P, symbolic, ca.DM(b), ca.SX(3, 1), VEHICLE, h, still)
         found = np.asarray(ca.DM(after))[[3, 4, 5, 11, 12], error_state.FELT_BIAS.start + i]
         accelerated = state.R @ axis
-        force = np.asarray(felt.force_of(ca.DM(accelerated), ca.DM(state.y), VEHICLE)).ravel()
+        force = np.asarray(accelerometer.force_of(ca.DM(accelerated), ca.DM(state.y), VEHICLE)).ravel()
         # F accelerates the pivot itself by what the accelerometer wrongly reads.
         moved = driven(force) - driven(np.zeros(3))
         pivot = moved[:3] - a * B @ moved[3:]
@@ -331,19 +331,19 @@ def test_a_manoeuvre_tells_a_scale_of_the_thrust_from_a_force():
     """Thrust that is 15 % weak, and a wind: both found within a second of changing thrust, each by its own."""
     suite, rng = SUITES["mocap"], np.random.default_rng(0)
     memory, thrust, fresh, told = (
-        ca.SX.sym(n, k) for n, k in (("m", felt.RECORD.length), ("f", 1), ("a", 1), ("d", 3))
+        ca.SX.sym(n, k) for n, k in (("m", accelerometer.RECORD.length), ("f", 1), ("a", 1), ("d", 3))
     )
-    after = felt.correct(memory, fresh, told, thrust, 100.0, VEHICLE, suite, 0.002)
+    after = accelerometer.correct(memory, fresh, told, thrust, 100.0, VEHICLE, suite, 0.002)
     step = as_numpy(ca.Function("f", [memory, fresh, told, thrust], [after]))
-    known, scale, force = np.asarray(felt.begin(VEHICLE)).ravel(), -0.15, np.array([0.3, -0.2, 0.4])
+    known, scale, force = np.asarray(accelerometer.begin(VEHICLE)).ravel(), -0.15, np.array([0.3, -0.2, 0.4])
     noise = VEHICLE.M * suite.accelerometer.noise
     for k in range(500):
         f = 5.0 + 4.0 * np.sin(10 * k * 0.002)
-        expected = felt.beyond(ca.DM(known), f)
+        expected = accelerometer.beyond(ca.DM(known), f)
         difference = force + np.array([0, 0, scale * f]) - np.asarray(expected).ravel() + noise * rng.standard_normal(3)
         known = np.asarray(step(known, 1.0, difference, f)).ravel()
     # The force walks fast in a manoeuvre: 20 rad/s times 2e-3 s of noise, 0.1 N √(0.04/2) = 0.014 N, thrice.
-    assert known[felt.RECORD.place("scale")] == pytest.approx([scale], abs=0.02)
+    assert known[accelerometer.RECORD.place("scale")] == pytest.approx([scale], abs=0.02)
     np.testing.assert_allclose(known[:3], force, atol=0.1)
 
 

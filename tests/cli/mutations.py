@@ -10,7 +10,7 @@ import numpy as np
 from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
 from flypend.files.schema import digest
 from flypend.files.toml import toml_text
-from flypend.flight import saved as saved_run
+from flypend.flight import files as saved_run
 from flypend.planning import files as saved_plan
 
 NUMBERS = [

@@ -8,7 +8,7 @@ from short_study import SHORT, content
 
 import flypend as fp
 from flypend.files.toml import toml_text
-from flypend.studies.sweep.store import existing
+from flypend.studies.sweep.store import find_store
 
 # Every command that writes, with what it reads in the folder above the disk.
 COMMANDS = {
@@ -113,7 +113,7 @@ def test_a_sweep_goes_on_where_the_disk_was_closed_or_full(disk, inputs, call, t
             break
         assert (code, complaints.count("\n")) == (2, 1), complaints
         assert complaints.endswith(", got No space left on device\n")
-        left.add(sum(existing(path).marked(k) for k in range(3)) if path.exists() else -1)
+        left.add(sum(find_store(path).is_flown(k) for k in range(3)) if path.exists() else -1)
         if left & {1, 2}:
             disk.set("ro")
             assert call(*sweep)[0] == 2

@@ -54,7 +54,7 @@ WORK = (
     "flypend.studies.check.fly_tasks", "flypend.studies.sweep.run.fly_range", "flypend.studies.tune.program_digest",
     "flypend.studies.trial.fly_many", "flypend.report.paper.fly_all", "flypend.report.theorem.fly_repaired",
     "flypend.pictures.animate.stage", "flypend.report.flight.figure_tasks",
-    "flypend.lab.server.serve", "flypend.lab.alone.page_alone", "flypend.export.write.interface",
+    "flypend.lab.server.serve", "flypend.lab.standalone.lab_page", "flypend.export.write.interface",
     "flypend.export.app.interface",
 )  # fmt: skip
 NUMBERS = [

@@ -11,7 +11,7 @@ from PIL import Image
 import flypend as fp
 from flypend.cli import terminal
 from flypend.files import whole as files
-from flypend.lab import alone
+from flypend.lab import standalone
 from flypend.paper import experiment
 from flypend.pictures import animate
 from flypend.pictures.style import STYLES
@@ -82,7 +82,7 @@ def test_a_run_writes_a_page_that_flies(call, tmp_path, plant):
 
 
 def test_the_laboratory_is_written_as_one_page(call, tmp_path, monkeypatch):
-    monkeypatch.setattr(alone.page_alone, "__defaults__", (("hehn2011",), ("lqr",)))
+    monkeypatch.setattr(standalone.lab_page, "__defaults__", (("hehn2011",), ("lqr",)))
     code, told, _ = call("lab", "--html", "lab.html")
     assert (code, told) == (0, "The laboratory is in lab.html.\n")
     assert list(embedded(tmp_path / "lab.html")["engines"]) == [

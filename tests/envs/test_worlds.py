@@ -20,7 +20,7 @@ from flypend.envs.draws import Draws
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
 from flypend.envs.make import TASKS as BUILT_IN
-from flypend.flight.tasks import touching
+from flypend.flight.tasks import touches
 from flypend.laws import Controller
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -545,7 +545,7 @@ def test_a_shaped_swing_up_on_a_hub_begins_with_the_rod_clear_of_its_parts():
     worlds = VectorWorlds("swing_up", 400, vehicle=vehicle, shaped=True)  # 17 of 400 drawn rods are within an arm
     worlds.reset(seed=0)
     starts = fp.State.from_packed(worlds.worlds.states[:, :24])
-    assert not touching(vehicle, starts).any()
+    assert not touches(vehicle, starts).any()
     assert (starts.y[:, 2] > -0.9).sum() > 200
 
 

@@ -482,7 +482,7 @@ def test_the_control_task_needs_less_stack_than_the_firmware_can_spare(name, tmp
     texts = {
         path.name: path.read_text() for part in ("law", "sensors", "plan") for path in app.glob(f"flypend_{part}.[ch]")
     }
-    told = fits.compiled(tuple(sorted(texts.items())), fits.BUDGETS["crazyflie"])
+    told = fits.measure_size(tuple(sorted(texts.items())), fits.BUDGETS["crazyflie"])
     # Frames are multiples of 8. The deepest call with a plan is not the one that the estimate adds the app's frames to.
     assert 0 <= told["bytes of stack"] - used <= 48
     flash, memory = size(app)

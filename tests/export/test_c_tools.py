@@ -10,7 +10,7 @@ import flypend as fp
 from benchmarks import cortex, damaged_memory, export_cost
 from flypend.export.interface import interface
 from flypend.export.write import core
-from flypend.laws.named import FACTORIES
+from flypend.laws.by_name import FACTORIES
 from flypend.plants.sensors import sensors_called
 from tests.few import slow
 

@@ -12,8 +12,8 @@ import flypend as fp
 from flypend.cli import app as cli
 from flypend.export.plan import COARSER, PHASES, sizes, table_of
 from flypend.planning.dynamics import Units
-from flypend.planning.feedback import Feedback, Follower, regulator, stepping
-from flypend.planning.planner import coarsened
+from flypend.planning.feedback import Feedback, Follower, regulator, step_program
+from flypend.planning.planner import coarsen
 from flypend.planning.real_time import SUBSTEPS, RealTime
 
 HEHN = fp.vehicle("hehn2011")
@@ -29,7 +29,7 @@ def plan():
 
 @pytest.fixture(scope="module")
 def coarse(plan):
-    return coarsened(plan, COARSER)
+    return coarsen(plan, COARSER)
 
 
 class InC:
@@ -80,7 +80,7 @@ class InPython:
             for each in (feedback.states, feedback.commands, feedback.gains)
         ]
         self.feedback, self.stage, self.been = Feedback(plan.stage, *longer), plan.stage, 0.0
-        self.follower, self.step = Follower(self.feedback, HEHN), stepping(HEHN)
+        self.follower, self.step = Follower(self.feedback, HEHN), step_program(HEHN)
         own = longer[0] / OWN, longer[1][:-1] / OWN[24:]
         self.realtime = RealTime(asked, *own, plan.stage / Units.of(HEHN).time, len(plan.commands), least)
 
@@ -128,7 +128,7 @@ def test_iterations_are_those_of_python(coarse, exported):
 @pytest.mark.parametrize("phase", range(PHASES))
 def test_an_iteration_may_begin_within_a_stage(coarse, exported, phase):
     """A full step leaves no gap: each state follows from the one before, the first after the rest of its stage."""
-    in_c, stage, step, first = InC(*exported), coarse[0].stage, stepping(HEHN), 4
+    in_c, stage, step, first = InC(*exported), coarse[0].stage, step_program(HEHN), 4
     states, t = table_of(coarse[0])[0] * OWN, (first + (phase - 1) / PHASES) * stage + 1e-5
     k = int(t / stage)
     state = step(states[k, :24], states[k, 24:], coarse[0].commands[k], t - k * stage)
@@ -148,7 +148,7 @@ def test_an_iteration_may_begin_within_a_stage(coarse, exported, phase):
 
 def flown(in_c, plan, *, improving):
     """Excursion, and distance from hover when the plan ends, of a flight that is struck in mid-throw."""
-    state, step, farthest, i = np.append(plan.packed[0], plan.rotor_forces[0]), stepping(HEHN), 0.0, 0
+    state, step, farthest, i = np.append(plan.packed[0], plan.rotor_forces[0]), step_program(HEHN), 0.0, 0
     while (found := in_c.command(0.002 * i, state))[0] == 0:
         if improving and i % 10 == 0:
             in_c.improve(0.002 * i, state)

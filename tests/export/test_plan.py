@@ -8,7 +8,7 @@ from cbuild import build
 
 import flypend as fp
 from flypend.compile.numeric import as_numpy
-from flypend.planning.feedback import deviation, hovering, regulator
+from flypend.planning.feedback import deviation, hover_deviation, regulator
 from flypend.plants.equations import rotor_step
 from flypend.plants.lag import step_timing
 
@@ -38,7 +38,7 @@ def compiled(plan, folder, precision):
 
 def in_python(plan):
     feedback = regulator(plan)
-    step, off, at_hover = as_numpy(rotor_step(HEHN, windy=False)), as_numpy(deviation(4)), as_numpy(hovering(4))
+    step, off, at_hover = as_numpy(rotor_step(HEHN, windy=False)), as_numpy(deviation(4)), as_numpy(hover_deviation(4))
 
     def call(t, state):
         k = min(int(t / plan.stage), len(plan.commands))

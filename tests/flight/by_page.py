@@ -10,7 +10,7 @@ import numpy as np
 from flypend.flight.live import engine_facts, inflate
 from flypend.flight.request import Tolerances
 from flypend.laws import law_names
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.model.state import convert_packed
 
 # A law and a vehicle at a time, each law once; the slow tests fly all others.

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 import flypend as fp
-from flypend.flight.labelled import UNITS
+from flypend.flight.labels import UNITS
 
 VEHICLE = fp.vehicle("hehn2011")
 

@@ -139,7 +139,7 @@ def test_the_frame_is_that_of_the_law(starts):
 def small_tasks(monkeypatch):
     """Two runs to a task, so that few starts are several tasks."""
     monkeypatch.setattr(ensemble, "CHUNK", 2)
-    monkeypatch.setattr("flypend.flight.kernels.flown.LEAST_SHARE", 2)
+    monkeypatch.setattr("flypend.flight.kernels.results.LEAST_SHARE", 2)
     monkeypatch.setattr("flypend.flight.kernels.sampled.PIECE", 2)
 
 

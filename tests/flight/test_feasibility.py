@@ -7,7 +7,7 @@ import flypend as fp
 from flypend.flight.feasibility import feasibility, forewarn
 from flypend.flight.request import Flight
 from flypend.laws.inverted_gains import angular_authority
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.plants import Ideal
 
 HEHN = fp.vehicle("hehn2011")

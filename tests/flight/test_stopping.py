@@ -11,7 +11,7 @@ import pytest
 
 import flypend as fp
 from flypend.flight.kernels.stopping import StoppedError, heard, interruptible, join
-from flypend.signals.waiting import call_in_thread
+from flypend.signals.polling import call_in_thread
 from tests.few import few
 
 HEARD = 0.5  # s: what the user is promised

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.flight.tasks import ASKEW, LEANS, TASKS, task_starts, touching
+from flypend.flight.tasks import ASKEW, LEANS, TASKS, task_starts, touches
 
 HEHN = fp.vehicle("hehn2011")
 
@@ -17,7 +17,7 @@ def test_no_start_touches_and_the_random_ones_are_as_many_as_asked_for(mount):
     assert len(starts["random"]) == len(starts.get("level", starts["random"])) == 50
     for name, batch in starts.items():
         allowed = name == "lean" and mount == "hub"  # a lean over an arm may begin in a disc
-        assert allowed or not touching(vehicle, batch).any()
+        assert allowed or not touches(vehicle, batch).any()
 
 
 def test_random_starts_begin_alike_whatever_their_number_on_a_gimbal_and_differ_by_seed():
@@ -30,7 +30,7 @@ def test_half_of_the_random_starts_on_a_hub_are_drawn_anew():
     """They are those of the gimbal that do not touch."""
     hub = HEHN.replace(mount="hub", body={"disc_radius": 0.12})
     drawn = task_starts(HEHN, 400, seed=5)["random"]
-    free = drawn.packed()[~touching(hub, drawn)]
+    free = drawn.packed()[~touches(hub, drawn)]
     assert 0 < len(free) < 400
     np.testing.assert_array_equal(task_starts(hub, 400, seed=5)["random"].packed()[: len(free)], free)
 

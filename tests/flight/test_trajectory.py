@@ -287,7 +287,7 @@ def _full_disk(*_args, **_kwargs):
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(run, tmp_path, monkeypatch):
     path = tmp_path / "run.nc"
     path.write_bytes(b"old")
-    monkeypatch.setattr("flypend.flight.saved.write_netcdf", _full_disk)
+    monkeypatch.setattr("flypend.flight.files.write_netcdf", _full_disk)
     line = rf"^{re.escape(str(path))}: expected a file that can be written, got No space left on device$"
     with pytest.raises(fp.InputError, match=line):
         run.save(path)

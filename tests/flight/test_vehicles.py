@@ -7,7 +7,7 @@ import pytest
 
 import flypend as fp
 from flypend.export.app import AIRFRAMES, limit_rotors
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.plants import Plant
 from tests.few import few
 

@@ -473,7 +473,7 @@ def test_on_a_hub_the_rod_is_proved_to_touch_nothing():
         {"rotors": [[x, y, 0.6] for x, y, _ in made["body"]["rotors"]]},
     ):
         wrong = made | {"body": made["body"] | change}
-        assert "the rod may touch" in certificate.touching(wrong, most), change
+        assert "the rod may touch" in certificate.name_touch(wrong, most), change
     assert "the rod may touch" in certificate.check(wrong)
     for body in (wrong["body"], None):
         assert differs(made | {"body": body}, hub.law) == "its body is not that of the law"
@@ -492,7 +492,7 @@ def test_distances_to_disc_and_arm_are_bounds_of_those_in_the_world():
                 [np.sin(theta) * np.cos(around), np.sin(theta) * np.sin(around), np.full(360, np.cos(theta))], axis=-1
             )
             clear = np.min(clearances(rod, rotors, HEHN.reach, body)) > 0
-            free = certificate.touching(made, theta) == ""
+            free = certificate.name_touch(made, theta) == ""
             assert clear or not free
             allowed.append((free, clear))
         free, clear = np.sum(allowed, axis=0)

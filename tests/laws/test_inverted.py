@@ -84,7 +84,7 @@ def _rod_force(vehicle, reference, gains):
     """(t, x, x_dot, y, y_dot, z, force on vehicle, on bob) → the law's force on the quadrotor (3,), and the errors."""
     t = ca.SX.sym("t")
     x, x_dot, y, y_dot, z, on_vehicle, on_bob = (ca.SX.sym(name, 3) for name in ("x", "v", "y", "w", "z", "a", "b"))
-    _, p, _ = throw.carrying(reference)(t, vehicle, on_bob)
+    _, p, _ = throw.bob_path(reference)(t, vehicle, on_bob)
     v, a, jerk = throw.derivatives(p, t, 3)
     e, e_dot = x + vehicle.l * y - p, x_dot + vehicle.l * y_dot - v
     rod = throw.Rod(y, y_dot)
@@ -204,7 +204,7 @@ def test_the_thrust_axis_follows_its_target_as_stated(share):
 def _bob_path(reference, time):
     """The bob's position along `reference` at `time` and four derivatives, each (3,)."""
     t = ca.SX.sym("t")
-    _, path, _ = throw.carrying(reference)(t, VEHICLE, ca.SX.zeros(3))
+    _, path, _ = throw.bob_path(reference)(t, VEHICLE, ca.SX.zeros(3))
     values = [ca.densify(v) for v in (path, *throw.derivatives(path, t, course.DERIVATIVES))]
     return [np.array(value)[:, 0] for value in ca.Function("path", [t], values)(time)]
 

@@ -12,7 +12,7 @@ from flypend import geometry as geo
 from flypend.laws import Guard, law_from_dict, law_names
 from flypend.laws.closed_loop import close_loop
 from flypend.model import equations_of_motion
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.model.state import split
 from flypend.paper import experiment, experiment_names
 

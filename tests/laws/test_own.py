@@ -165,7 +165,7 @@ def test_a_signal_is_one_number():
         return Control(wrench=fp.Wrench(vehicle.weight, 0 * state.omega), signals={"error": state.x})
 
     with pytest.raises(LawError, match=r"its signal error is not one number, but of shape \(3, 1\)"):
-        Law(name="mine", e3="up", gains=(), control=control).bind(VEHICLE).tried()
+        Law(name="mine", e3="up", gains=(), control=control).bind(VEHICLE).try_out()
 
 
 def test_a_mistake_in_flight_is_told_alike():

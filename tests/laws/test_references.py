@@ -9,7 +9,7 @@ import pytest
 import flypend as fp
 from flypend import geometry as geo
 from flypend.laws.references import circle, hover, lemniscate, line, sample
-from flypend.laws.throw import carrying, derivatives
+from flypend.laws.throw import bob_path, derivatives
 
 VEHICLE = fp.vehicle("hehn2011")
 SUPPORT = np.array([0, 0, VEHICLE.g])
@@ -29,7 +29,7 @@ TIMES = np.linspace(0, 7, 29)
 def _bob(reference, on_bob=NO_FORCE):
     """p, its first three derivatives and y, each (n, 3), at times (n,)."""
     t = ca.SX.sym("t")
-    _, p, y = carrying(reference)(t, VEHICLE, ca.DM(on_bob))
+    _, p, y = bob_path(reference)(t, VEHICLE, ca.DM(on_bob))
     values = [ca.densify(v) for v in (p, *derivatives(p, t, 3), y)]
     function = ca.Function("bob", [t], values)
     return lambda times: [np.array(value).T for value in function(np.asarray(times)[None, :])]

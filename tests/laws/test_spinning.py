@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.laws.axis import SPUN, THRUST_SHARE, leading, spin_of
+from flypend.laws.axis import SPUN, THRUST_SHARE, gyroscopic_lead, spin_of
 from flypend.laws.inverted_gains import angular_authority
 from flypend.model.dynamics import gyroscopic_moment
 
@@ -54,5 +54,5 @@ def test_the_axis_is_led_by_the_moment_under_which_it_moves_steadily():
     v_d = np.cross(omega, axis)
     state = fp.State.symbolic(ca.DM(fp.State(y=(0, 0, 1), omega=(9.0, 5.0, 30.0)).packed()))
     wanted = VEHICLE.I @ (omega[2] * np.cross(omega, axis)) + np.array(gyroscopic_moment(VEHICLE.I, omega)).ravel()
-    found = np.array(ca.DM(leading(state, VEHICLE, ca.DM(v_d), 1.0))).ravel()
+    found = np.array(ca.DM(gyroscopic_lead(state, VEHICLE, ca.DM(v_d), 1.0))).ravel()
     np.testing.assert_allclose(found, wanted, atol=1e-12)

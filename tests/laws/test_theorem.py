@@ -305,7 +305,7 @@ def test_the_bound_on_the_wanted_rate_is_the_least_one(barrier):
 
 
 def test_on_a_circle_all_errors_vanish():
-    # Radius 0.4 m at 1.2 rad/s: the rod leans; `carrying` gives the bob's path, which the bob follows exactly.
+    # Radius 0.4 m at 1.2 rad/s: the rod leans; `bob_path` gives the bob's path, which the bob follows exactly.
     law = fp.laws.almost_global(references.circle(0.4, 1.2))
     start = fp.State.random(np.random.default_rng(11))
     run = fp.simulate(HEHN, law, start, 15.0, plant="ideal", engine="scipy")  # compiling this takes longer

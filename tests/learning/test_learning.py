@@ -58,10 +58,10 @@ def test_the_gradient_is_that_of_the_cost(mount, drawn, monkeypatch):
 
     def cost(weights):
         flights.fly(weights, begin)
-        return flights.judged()[0].cost.sum()
+        return flights.judge()[0].cost.sum()
 
     cost(w)
-    gradient = flights.gradient(w, flights.judged()[1])
+    gradient = flights.gradient(w, flights.judge()[1])
     rng, h = np.random.default_rng(2), 1e-6
     for name, array in w.items():
         way = rng.standard_normal(array.shape)
@@ -76,7 +76,7 @@ def test_the_network_is_the_one_of_the_law():
 
     w, phi = weights_of(3), np.random.default_rng(0).standard_normal((FEATURES, 7)).astype(np.float32)
     symbol = ca.SX.sym("phi", FEATURES)
-    asked = ca.Function("asked", [symbol], [Policy(**w).asked(symbol)])
+    asked = ca.Function("asked", [symbol], [Policy(**w).evaluate(symbol)])
     found = forward(double(w), with_hover(phi.astype(float)))[0]
     assert np.allclose(found, np.array(asked(phi.astype(float))), rtol=0, atol=1e-12)
 
@@ -201,7 +201,7 @@ def test_the_direct_part_is_the_regulator_about_hover(tmp_path):
 def test_the_teacher_stands_in_the_flights_of_a_training():
     flights = Flights(Course(VEHICLE, duration=5.0), 64)
     Teacher(flights).fly(starts(VEHICLE, np.random.default_rng(3), 64))
-    judged = flights.judged()[0]
+    judged = flights.judge()[0]
     assert judged.stands.mean() >= 0.95
     assert np.median(judged.distance) < 1.5
 

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 import flypend as fp
 from flypend import geometry as geo
 from flypend.model import equations_of_motion, total_energy
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.model.state import SHAPES, convert_packed, project, split
 
 EPS = 1e-15

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.model.by_name import vehicle_names
 from flypend.model.plausible import RULES, check_plausible
-from flypend.model.shipped import vehicle_names
 
 HEHN = fp.vehicle("hehn2011")
 TEN = {key: 10 * value for key, value in HEHN.body.to_dict().items() if key != "cup_angle"}

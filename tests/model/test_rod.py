@@ -6,7 +6,7 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.model import kinetic_energy, potential_energy
-from flypend.model.rod import rod_with_bob, stretched, uniform_rod
+from flypend.model.rod import rod_with_bob, stretch, uniform_rod
 
 
 def summed(mass, length, bob_mass, points=200_000):
@@ -34,13 +34,13 @@ def test_a_bob_on_a_massless_rod_is_the_point_mass():
 def test_a_stretched_rod_is_made_of_heavier_and_longer_parts(heavier, longer):
     vehicle = fp.vehicle("hehn2011").replace(**rod_with_bob(0.05, 1.2, 0.02))
     made = rod_with_bob(heavier * 0.05, longer * 1.2, heavier * 0.02)
-    assert stretched(vehicle, heavier, longer) == pytest.approx(made | {"rod_spin_inertia": 0.0}, rel=1e-14)
+    assert stretch(vehicle, heavier, longer) == pytest.approx(made | {"rod_spin_inertia": 0.0}, rel=1e-14)
 
 
 def test_a_disc_on_a_rod_stays_one_when_it_gets_lighter():
     """Its moment about the rod's axis becomes less as well: at most twice that across it, as a vehicle requires."""
     vehicle = fp.vehicle("hehn2011").replace(rod_inertia=1e-3, rod_spin_inertia=2e-3)
-    new = vehicle.replace(**stretched(vehicle, 0.25, 1.0))
+    new = vehicle.replace(**stretch(vehicle, 0.25, 1.0))
     assert new.rod_spin_inertia == 2 * new.rod_inertia == pytest.approx(5e-4)
 
 

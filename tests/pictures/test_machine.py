@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.pictures.machine import gaps, machine_figure
 
 

@@ -15,7 +15,7 @@ from flypend.flight.metrics import wilson, wilson_bounds
 from flypend.pictures.maps import FAILED, map_figure
 from flypend.studies.sweep import bins, cube
 from flypend.studies.sweep.chunk import CAUSES
-from flypend.studies.sweep.store import existing, open_store
+from flypend.studies.sweep.store import find_store, open_store
 from tests.few import slow
 
 STUDY = {
@@ -39,7 +39,7 @@ def store(tmp_path_factory):
 
 
 def everything(path):
-    found = existing(path)
+    found = find_store(path)
     parts = [found.read(k) for k in range(found.study.chunks)]
     return {name: np.concatenate([part[name] for part in parts]) for name in found.columns}
 
@@ -149,7 +149,7 @@ def test_unfinished_stores_are_drawn_and_empty_ones_refused(store, tmp_path):
 
     path = tmp_path / "b.zarr"
     shutil.copytree(store, path)
-    kept = existing(path)
+    kept = find_store(path)
     kept._marks[1] = 0
     assert bins.Runs(path).number == 400
     kept._marks[2] = 0
@@ -246,7 +246,7 @@ def test_millions_of_runs_take_no_more_memory_than_a_chunk(runs, tmp_path):
     small, large = tmp_path / "small.zarr", tmp_path / "large.zarr"
     table = STUDY | {"duration": 0.2, "criterion": STUDY["criterion"] | {"hold": 0.1}, "chunk": 100_000}
     fp.sweep(table | {"runs": 100_000}, small, workers=1)
-    columns = existing(small).read(0)
+    columns = find_store(small).read(0)
     kept = open_store(large, fp.study(table | {"runs": runs}), "", {})
     for number in range(runs // 100_000):
         kept.write(number, columns)

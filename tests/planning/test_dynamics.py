@@ -94,7 +94,7 @@ def test_derivatives_are_those_by_finite_differences(maps):
     stage, units = Stage(4), Units.of(HEHN)
     gap_of, A_of, B_of = stage.derivatives()
     slopes = [ca.vertcat(*of.nonzeros()) for of in (A_of, B_of)]
-    linearised, step = numeric(stage.linearised(gap_of, *slopes)), numeric(stage.step())
+    linearised, step = numeric(stage.linearise(gap_of, *slopes)), numeric(stage.step())
     rng = np.random.default_rng(5)
     before, after = (random_state(rng, HEHN) / units.states(4) for _ in range(2))
     command, timing, numbers = rng.uniform(0.1, 2, 4), step_timing(0.08, 1 / 12), units.numbers(HEHN)

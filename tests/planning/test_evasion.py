@@ -7,7 +7,7 @@ import flypend as fp
 from flypend.flight.tasks import task_starts
 from flypend.model.state import SIZE
 from flypend.planning.fallback import BEYOND, commands, evasion, room
-from flypend.planning.feedback import stepping
+from flypend.planning.feedback import step_program
 
 HUB = fp.vehicle("hehn2011").replace(mount="hub")
 WAIT = 0.054  # s
@@ -19,7 +19,7 @@ def starts():
 
 
 def path_under(command, state, rotors, wait):
-    step, path = stepping(HUB), [np.append(state, rotors)]
+    step, path = step_program(HUB), [np.append(state, rotors)]
     for _ in range(27):
         path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, wait / 27))
     return np.array(path)

@@ -121,7 +121,7 @@ def test_masses_that_are_found_count_under_the_law_and_under_constant_forces():
     np.testing.assert_allclose(waits.until(0.0, begin, wait).there[:SIZE], flown, atol=1e-9)
     command, _, end = fallback.evasion(HUB, begin[:SIZE], begin[SIZE:], wait, scales)
     held = Schedule(np.linspace(0, wait, fallback.STEPS + 1), [command] * fallback.STEPS)
-    np.testing.assert_allclose(held.flown(_light(HUB), begin, substeps=1)[-1], end, atol=1e-9)
+    np.testing.assert_allclose(held.fly(_light(HUB), begin, substeps=1)[-1], end, atol=1e-9)
 
 
 def test_the_plan_begins_where_its_sketches_lead():

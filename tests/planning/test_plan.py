@@ -259,7 +259,7 @@ def test_guesses_race_with_and_without_constraints(start, knowing, by_chance):
     walls, rounds = ((-0.6, -0.6, -np.inf), (0.6, 0.6, np.inf)), {4: 4, 8: 2}
     kept = fp.Constraints(box=walls)
     asked = request(HEHN, fp.random_starts(400, 9001)[start], "excursion", (0, 0, 0), kept=kept)
-    free = asked.unconstrained()
+    free = asked.without_constraints()
     races = together(asked, 12.5, np.inf, 22, rounds), together(free, 12.5, np.inf, 22, rounds, kept=asked)
     assert [bool(search.plan_of(asked, race, 12.5)) for race in races] == [knowing, by_chance]
     plan = plan_within(asked, 12.5, 22, rounds)

@@ -155,7 +155,7 @@ def test_every_guess_brings_a_rod_that_hangs_at_rest_over_its_pivot():
 @pytest.mark.parametrize("angle", [0.4, -1.9, 3.0])
 def test_from_a_hover_of_any_heading_a_deviation_is_what_the_body_sees(angle):
     """Turned about the vertical of the pivot, a deviation changes in its heading alone."""
-    off, yawed = as_numpy(feedback.hovering(4)), Rotation.from_rotvec([0, 0, 0.7]).as_matrix()
+    off, yawed = as_numpy(feedback.hover_deviation(4)), Rotation.from_rotvec([0, 0, 0.7]).as_matrix()
     hover, tilt = fp.State(x=(0.3, -0.2, 0.1), R=yawed, y=(0, 0, 1)), Rotation.from_rotvec([0.02, -0.03, 0]).as_matrix()
     y = np.array([0.03, 0.05, 1.0]) / np.linalg.norm([0.03, 0.05, 1.0])
     near = fp.State(

@@ -20,7 +20,7 @@ OUTSIDE = np.array([0.5, -0.3, 0.2, 0.05, 0.1, -0.05])
 def step_of(vehicle, method=cascade_step):
     """The step as a function (state, mean and change of the wrench, outside forces, h) → state."""
     s, mean, change, outside, h = (ca.SX.sym(name, n) for name, n in zip("swcfh", (24, 4, 4, 6, 1), strict=True))
-    acting = Ramp(mean, change) if method is cascade_step else Ramp(mean, change).mixed(vehicle.unmixing())
+    acting = Ramp(mean, change) if method is cascade_step else Ramp(mean, change).mix(vehicle.unmixing())
     after = method(s, acting, outside, h, vehicle)
     return as_numpy(ca.Function("step", [s, mean, change, outside, h], [ca.densify(after)]))
 

@@ -668,7 +668,7 @@ def test_forces_at_the_start_are_of_all_rotors():
     vehicle = fp.vehicle("hehn2011").replace(rotor_lag=0.02)
     for rotors in ([1.0, 1.0, 1.0], np.ones((2, 4))):
         with pytest.raises(fp.InputError, match=r"^plant\.rotors: "):
-            fp.Ideal(lag=True, rotors=rotors).beginning(vehicle, 1, "up")
+            fp.Ideal(lag=True, rotors=rotors).initial_wrench(vehicle, 1, "up")
 
 
 def test_an_ideal_plant_with_forces_of_each_run_is_hashable_too():

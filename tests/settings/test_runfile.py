@@ -16,7 +16,7 @@ import flypend as fp
 from flypend.flight.request import Flight
 from flypend.flight.simulate import fly
 from flypend.laws import law_from_dict, law_names
-from flypend.model.shipped import vehicle_names
+from flypend.model.by_name import vehicle_names
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
 from flypend.settings.runfile import KEYS, check_plain, plant_of, run_file

@@ -15,7 +15,7 @@ import pytest
 
 import flypend as fp
 from flypend import signals
-from flypend.signals import waiting
+from flypend.signals import polling
 
 
 class OwnError(Exception):
@@ -134,11 +134,11 @@ def test_other_threads_leave_handlers_alone():
 def test_waiting_for_a_call_and_for_a_program_polls():
     with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         strike()
-        waiting.result_of(Future())  # never done
+        polling.result_of(Future())  # never done
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt), signals.defer():  # noqa: PT012
         threading.Timer(0.3, strike).start()
-        waiting.run([sys.executable, "-c", "import time; time.sleep(60)"])
+        polling.run([sys.executable, "-c", "import time; time.sleep(60)"])
     assert time.monotonic() - begin < 30
 
 
@@ -146,28 +146,28 @@ def test_calls_that_are_done_at_once_come_in_their_order():
     calls = [Future() for _ in range(50)]
     for call in reversed(calls):
         call.set_result(None)
-    assert list(waiting.as_they_come(calls)) == calls
+    assert list(polling.as_they_come(calls)) == calls
 
 
 def test_a_program_is_run_as_by_subprocess():
-    done = waiting.run([sys.executable, "-c", "print('out'); import sys; sys.exit('err')"], text=True)
+    done = polling.run([sys.executable, "-c", "print('out'); import sys; sys.exit('err')"], text=True)
     assert (done.returncode, done.stdout, done.stderr) == (1, "out\n", "err\n")
 
 
 def test_worker_processes_hear_no_interrupt_and_die_if_the_block_fails(monkeypatch):
-    monkeypatch.setattr(waiting, "IDLE", 0.5)
-    with waiting.processes(2) as submit:
-        waiting.result_of(submit(os.getpid))
+    monkeypatch.setattr(polling, "IDLE", 0.5)
+    with polling.processes(2) as submit:
+        polling.result_of(submit(os.getpid))
     time.sleep(2)  # its workers have ended, and a pool of another size starts new ones
-    with waiting.processes(1) as submit:
-        blocked = waiting.result_of(submit(signal.pthread_sigmask, signal.SIG_BLOCK, []))
-        worker = waiting.result_of(submit(os.getpid))
+    with polling.processes(1) as submit:
+        blocked = polling.result_of(submit(signal.pthread_sigmask, signal.SIG_BLOCK, []))
+        worker = polling.result_of(submit(os.getpid))
         assert signal.SIGINT in blocked
         assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
         os.kill(worker, signal.SIGINT)
-        assert waiting.result_of(submit(os.getpid)) == worker
-    with pytest.raises(OwnError), waiting.processes(1) as submit:  # noqa: PT012
-        worker = waiting.result_of(submit(os.getpid))
+        assert polling.result_of(submit(os.getpid)) == worker
+    with pytest.raises(OwnError), polling.processes(1) as submit:  # noqa: PT012
+        worker = polling.result_of(submit(os.getpid))
         for _ in range(50):
             submit(time.sleep, 60)
         raise OwnError

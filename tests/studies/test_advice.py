@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.studies.advice import CHANGES, advise, changed, changes_of
+from flypend.studies.advice import CHANGES, advise, change, changes_of
 
 HEHN = fp.vehicle("hehn2011")
 
@@ -57,7 +57,7 @@ def test_for_rotors_too_weak_to_hover_stronger_ones_are_advised_and_a_longer_rod
     assert found["rotor_limits"].works
     assert not found["rod_length"].works
     assert "N each" in found["rotor_limits"].describe()
-    flown = changed(weak(1.3), found["rotor_limits"].factors)
+    flown = change(weak(1.3), found["rotor_limits"].factors)
     again = fp.simulate_ensemble(flown, fp.laws.inverted(), fp.random_starts(24, 5), 30.0)
     assert again.rate > 0.8  # from other starts, too
 
@@ -72,7 +72,7 @@ def test_what_nothing_helps_is_said():
 
 def test_a_changed_vehicle_keeps_its_shape():
     whole = HEHN.replace(**fp.rod_with_bob(0.02, 0.6, 0.04))
-    new = changed(whole, {"rod_length": 2.0, "bob_mass": 0.5, "rotor_limits": 1.5})
+    new = change(whole, {"rod_length": 2.0, "bob_mass": 0.5, "rotor_limits": 1.5})
     assert new.rod_inertia == pytest.approx(2.0 * whole.rod_inertia)
     assert (new.rod_end, new.rod_length) == (2 * whole.rod_end, 2 * whole.rod_length)
     np.testing.assert_allclose(new.rotor_limits, [whole.rotor_limits[0], 1.5 * whole.rotor_limits[1]])

@@ -21,7 +21,7 @@ from short_study import SHORT, content
 import flypend as fp
 from flypend.files.toml import toml_text
 from flypend.studies.sweep.bins import Runs, sphere
-from flypend.studies.sweep.store import Store, _seal, existing
+from flypend.studies.sweep.store import Store, _seal, find_store
 
 TENS = SHORT | {"chunk": 10}
 SMALL = TENS | {"runs": 20}
@@ -159,7 +159,7 @@ def attack_kills(number, seed, folder):
             os.kill(process, signal.SIGKILL)
             code = forks.end(process)
             assert code in (0, -signal.SIGKILL), told.read_text(encoding="utf-8")
-            marks = sum(existing(path).marked(k) for k in range(CHUNKS)) if path.exists() else -1
+            marks = sum(find_store(path).is_flown(k) for k in range(CHUNKS)) if path.exists() else -1
             found["no store" if marks < 0 else "none" if marks == 0 else "some" if marks < CHUNKS else "all"] += 1
             if marks == CHUNKS:
                 fp.sweep(LONG, path, workers=1)
@@ -316,8 +316,8 @@ def attack_stores(number, seed, folder):
 
 def read(path):
     """All chunks that a store says are flown."""
-    store = existing(path)
-    return {number: store.read(number) for number in range(store.study.chunks) if store.marked(number)}
+    store = find_store(path)
+    return {number: store.read(number) for number in range(store.study.chunks) if store.is_flown(number)}
 
 
 def right(found, numbers):

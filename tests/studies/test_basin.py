@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import binomtest
 
 import flypend as fp
-from flypend.flight.tasks import SWAY, free_starts, random_hanging, touching
-from flypend.laws.lag import leading
+from flypend.flight.tasks import SWAY, free_starts, random_hanging, touches
+from flypend.laws.lag import lead_law
 from flypend.studies import basin
 from flypend.studies.basin import measure_basin
 from tests.few import slow
@@ -32,7 +32,7 @@ def test_nearly_all_starts_enter_under_the_inverted_law():
 def test_another_law_enters_from_fewer_and_those_flights_do_converge(certified):
     lqr = fp.laws.lqr()
     starts = fp.State.random(np.random.default_rng(2), 200, max_omega=0.3, max_y_dot=0.3, max_x_dot=0.3)
-    entering, _ = basin._entering(lqr.bind(VEHICLE), certified, starts, *basin.PASSES[0])
+    entering, _ = basin._find_entry(lqr.bind(VEHICLE), certified, starts, *basin.PASSES[0])
     assert 0 < np.sum(np.isfinite(entering)) < 200
     law = fp.laws.supervised(first=lqr, level=certified.c, yaw_rate=certified.yaw_rate)
     flown = fp.simulate_ensemble(VEHICLE, law, starts, 25.0, plant=fp.Ideal(limits=True))
@@ -43,9 +43,9 @@ def test_a_flight_counts_only_if_its_own_error_leaves_it_inside(certified, monke
     """With a safety factor beyond measure no flight is inside for sure."""
     starts = fp.random_starts(20, 4)
     law = fp.laws.inverted().bind(VEHICLE)
-    assert np.all(np.isfinite(basin._entering(law, certified, starts, *basin.PASSES[0])[0]))
+    assert np.all(np.isfinite(basin._find_entry(law, certified, starts, *basin.PASSES[0])[0]))
     monkeypatch.setattr(basin, "SAFETY", 1e300)
-    assert np.all(np.isnan(basin._entering(law, certified, starts, *basin.PASSES[0])[0]))
+    assert np.all(np.isnan(basin._find_entry(law, certified, starts, *basin.PASSES[0])[0]))
 
 
 def test_those_that_are_late_are_flown_again(monkeypatch):
@@ -79,8 +79,8 @@ def test_on_a_hub_starts_are_free_and_what_does_not_enter_touches(lag):
     assert 100 < found.entered < 195
     assert found.entered + found.touched == 200
     starts = free_starts(hub, basin.DRAWS["random"], np.random.default_rng((5, 0)), basin.CHUNK)[:200]
-    assert not touching(hub, starts).any()
-    law = leading(fp.laws.inverted()) if lag else fp.laws.inverted()
+    assert not touches(hub, starts).any()
+    law = lead_law(fp.laws.inverted()) if lag else fp.laws.inverted()
     flown = fp.simulate_ensemble(hub, law, starts, 40.0, plant=fp.Ideal(limits=True, lag=lag))
     assert np.sum(np.isfinite(flown.end) & (flown.clearance <= 0)) == found.touched
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.studies.sweep.store import existing
+from flypend.studies.sweep.store import find_store
 
 # Everything random that there is: starts, noise and gusts, judged, in several chunks.
 STUDY = {
@@ -22,7 +22,7 @@ STUDY = {
 
 def columns(path):
     """The bytes of every column of a store, chunk by chunk."""
-    store = existing(path)
+    store = find_store(path)
     return {
         (name, k): np.asarray(values).tobytes()
         for k in range(store.study.chunks)

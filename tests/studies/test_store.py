@@ -15,7 +15,7 @@ import flypend as fp
 from flypend.files.toml import toml_text
 from flypend.studies.sweep.bins import Runs
 from flypend.studies.sweep.claim import lock_name, lock_of
-from flypend.studies.sweep.store import existing
+from flypend.studies.sweep.store import find_store
 from tests.few import few
 
 
@@ -294,6 +294,6 @@ def test_an_interrupted_removal_leaves_no_store(store, monkeypatch):
 def test_two_stores_have_two_ids(tmp_path):
     for name in ("a.zarr", "b.zarr"):
         fp.sweep(SHORT, tmp_path / name, workers=1)
-    ids = {existing(tmp_path / name).attributes["id"] for name in ("a.zarr", "b.zarr")}
+    ids = {find_store(tmp_path / name).attributes["id"] for name in ("a.zarr", "b.zarr")}
     assert len(ids) == 2
     assert content(tmp_path / "a.zarr") == content(tmp_path / "b.zarr")

@@ -29,7 +29,7 @@ from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import CAUSES, fly_range
 from flypend.studies.sweep.claim import lock_of
 from flypend.studies.sweep.design import design
-from flypend.studies.sweep.store import _seal, existing
+from flypend.studies.sweep.store import _seal, find_store
 
 GRID = SHORT | {"runs": 3, "vary": {"start": {"tilt": {"from": 0.0, "to": 3.0, "points": 4}, "R": "uniform"},
                                     "gains": {"k_d": {"values": [0.5, 2.0]}}}}  # fmt: skip
@@ -43,7 +43,7 @@ NOISY = {
 
 def columns(path):
     """Every number of a store."""
-    store = existing(path)
+    store = find_store(path)
     parts = [store.read(k) for k in range(store.study.chunks)]
     return {name: np.concatenate([part[name] for part in parts]) for name in store.columns}
 
@@ -319,7 +319,7 @@ def test_a_finished_store_is_left_as_it_is_and_force_begins_anew(tmp_path):
     fp.sweep(SHORT, path, workers=1)
     assert {file: file.stat().st_mtime_ns for file in path.rglob("*") if file.is_file()} == times
     fp.sweep(SHORT | {"seed": 8}, path, workers=1, force=True)
-    assert "seed = 8" in existing(path).attributes["study"]
+    assert "seed = 8" in find_store(path).attributes["study"]
     assert {entry.name for entry in tmp_path.iterdir()} == {"a.zarr", ".a.zarr.lock"}
 
 

@@ -160,7 +160,7 @@ class DelayEstimator:
         if e == 0:
             return past
         forces, _ = hold(rotors, command, step_timing(self._nominal.lag, e))
-        return join_ramps(past, forces.mixed(self._nominal.vehicle.mixing()), delay, e)
+        return join_ramps(past, forces.mix(self._nominal.vehicle.mixing()), delay, e)
 
     def acting(self) -> ca.Function:
         """Return (memory, rotors (n,), params) → the forces (n,) that act by then, N, after a step with that memory.

@@ -15,11 +15,11 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.board import error_state, felt
+from flypend.board import accelerometer, error_state
 from flypend.board.command import OUTSIDE, total_forces
 from flypend.board.error_state import Densities
-from flypend.board.expected import GATED, Expected
 from flypend.board.history import REACH, History, finds_latency
+from flypend.board.innovation import GATED, Expected
 from flypend.board.nominal import Nominal
 from flypend.board.twin import Twin
 from flypend.compile.record import Field, Record
@@ -43,7 +43,7 @@ from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import hold, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import Segment, within_period
+from flypend.plants.schedule import Segment, segments_within
 from flypend.plants.sensing import mean_force, readings_record
 from flypend.plants.sensors import Sensors
 
@@ -107,7 +107,7 @@ class Filter:
             Field("pull", 0, "nominal over true length of the rod, less 1"),
             Field("rejections", len(self.gated_streams), "of late by each stream of poses and angles, readings"),
             Field("difference", 3, "of the forces that last, F_b/m - F_v/M, across the rod, world, m/s^2"),
-            *[Field.of(felt.RECORD)] * self.feels,
+            *[Field.of(accelerometer.RECORD)] * self.feels,
             *late * finds_latency(self.sensors),
             *turned * bool(self.history.depths["attitude"]),
             Field("covariance", errors * (errors + 1) // 2, f"of the {errors} errors: {what}, lower triangle by rows"),
@@ -131,7 +131,7 @@ class Filter:
             "state": packed, "rotors": rotors, "frame": b, "force": np.zeros(3), "difference": np.zeros(3),
             "bandwidth": UNSEEN_BANDWIDTH if self.sensors.attitude is None else FIRST_BANDWIDTH,
             "bias": np.zeros(3), "pull": 0, "rejections": np.zeros(len(self.gated_streams)),
-            "felt": felt.begin(vehicle), "late": 0, "late_doubt": LATE**2,
+            "felt": accelerometer.begin(vehicle), "late": 0, "late_doubt": LATE**2,
             "turned": ca.vec(ca.SX.eye(3)), "covariance": error_state.pack(P),
             "past": self.history.begin(rows, weight),
         })  # fmt: skip
@@ -173,13 +173,13 @@ class Filter:
         if self.feels:
             if self.sensors.attitude is None:
                 correction = error[error_state.FELT_BIAS]
-                taken = felt.force_of(correction, s.R.T @ s.y, vehicle)
-                parts["felt"] = felt.correct_bias(parts["felt"], correction, taken)
+                taken = accelerometer.force_of(correction, s.R.T @ s.y, vehicle)
+                parts["felt"] = accelerometer.correct_bias(parts["felt"], correction, taken)
             else:
-                parts["felt"] = felt.correct_bias(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
-            fresh, told = expected.felt(felt.RECORD.split(parts["felt"])["bias"], vehicle)
+                parts["felt"] = accelerometer.correct_bias(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
+            fresh, told = expected.felt(accelerometer.RECORD.split(parts["felt"])["bias"], vehicle)
             given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
-            parts["felt"] = felt.correct(parts["felt"], *given)
+            parts["felt"] = accelerometer.correct(parts["felt"], *given)
             outside = outside + ca.vertcat(self._accelerometer_force(parts, s.R), np.zeros(3))
             scale = _scale(outside[:3], thrust, s.z, vehicle)
             outside = outside - ca.vertcat(scale * thrust * s.z, np.zeros(3))
@@ -221,7 +221,7 @@ class Filter:
 
     def _accelerometer_force(self, parts: dict[str, Any], R: Matrix) -> Vector:
         """Return the force (3,) that the accelerometer adds to the modelled thrust, world, N; 0 without one."""
-        return R @ felt.beyond(parts["felt"], ca.sum1(parts["rotors"])) if self.feels else ca.SX.zeros(3)
+        return R @ accelerometer.beyond(parts["felt"], ca.sum1(parts["rotors"])) if self.feels else ca.SX.zeros(3)
 
     # Propagation --------------------------------------------------------------------------------------------------
 
@@ -273,7 +273,7 @@ class Filter:
         timing = step_timing(nominal.lag, h)
         command = end - timing[1] / (1 - timing[1]) * (begin - end)
         ramp, _ = hold(begin, command, timing)
-        moved = cascade_step(state, ramp.mixed(nominal.vehicle.mixing()), outside, h, nominal.vehicle)
+        moved = cascade_step(state, ramp.mix(nominal.vehicle.mixing()), outside, h, nominal.vehicle)
         return ca.Function("moved", [state, begin, end, outside, nominal.symbols], [ca.cse(ca.densify(moved))])
 
     def _spread(self) -> ca.Function:
@@ -320,7 +320,7 @@ class Filter:
         """Return the densities where `force` (3,) acts on the whole beside its weight, world frame, N."""
         assert self.sensors.gyro is not None
         departure = _departure(force, self._nominal.vehicle)
-        return Densities(*self.sensors.lacking(self.period, departure), self.sensors.gyro.density(self.period))
+        return Densities(*self.sensors.process_noise(self.period, departure), self.sensors.gyro.density(self.period))
 
 
 def _departure(force: Vector, vehicle: Vehicle) -> Scalar:
@@ -335,7 +335,7 @@ def _scale(force: Vector, thrust: Scalar, z: Vector, vehicle: Vehicle) -> Scalar
     Hardly any where the thrust is below LEAST_THRUST, where a force is not told from a scale.
     """
     scale = dot(force, z) * thrust / (thrust**2 + (LEAST_THRUST * vehicle.weight) ** 2)
-    return clip(scale, -felt.MOST_SCALE, felt.MOST_SCALE)
+    return clip(scale, -accelerometer.MOST_SCALE, accelerometer.MOST_SCALE)
 
 
 def _correct(
@@ -357,7 +357,7 @@ def _correct(
 
 def segments_of(plant: Plant) -> tuple[Segment, ...]:
     """Return the intervals of a control period by the age of the command that acts, as the estimator assumes them."""
-    return within_period(plant.assumed_delay, 1 / plant.rate)
+    return segments_within(plant.assumed_delay, 1 / plant.rate)
 
 
 def steady_gain(wander: float, noise: float) -> float:

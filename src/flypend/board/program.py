@@ -38,7 +38,7 @@ from flypend.model.state import SIZE
 from flypend.plants.lag import hold, step_timing
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import Segment, segments_ahead, within_period
+from flypend.plants.schedule import Segment, segments_ahead, segments_within
 from flypend.plants.sensing import readings_record
 
 
@@ -230,7 +230,7 @@ def _predictor(loop: Loop) -> tuple[Segment, ...]:
 
 
 def _within(loop: Loop) -> tuple[Segment, ...]:
-    return within_period(_in_transit(loop), 1 / loop.sampled.rate)
+    return segments_within(_in_transit(loop), 1 / loop.sampled.rate)
 
 
 def _in_transit(loop: Loop) -> float:

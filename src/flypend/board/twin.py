@@ -75,7 +75,7 @@ class Twin:
         commands = ca.SX.sym("u", n * len(durations))
         held = ca.vertsplit(commands, n)[::-1]
         ramp, after = hold_in_turn(rotors, held, durations, nominal.lag)
-        wrench, outside = ramp.mixed(nominal.vehicle.mixing()), forces if self._forces else None
+        wrench, outside = ramp.mix(nominal.vehicle.mixing()), forces if self._forces else None
         moved = cascade_step(packed, wrench, outside, sum(durations), nominal.vehicle)
         outputs = ca.cse([ca.densify(moved), ca.densify(after)])
         return ca.Function(name, [packed, rotors, commands, forces, nominal.symbols], outputs)

@@ -56,7 +56,7 @@ def run(
     """
     from flypend.flight.feasibility import forewarn
     from flypend.flight.simulate import fly
-    from flypend.model.shipped import name_with_changes
+    from flypend.model.by_name import name_with_changes
     from flypend.paper.claims import SETTLED
     from flypend.pictures.style import style_named
     from flypend.report.flight import THEOREMS, check_movies, write_flight
@@ -195,10 +195,10 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | 
     """Open the laboratory in a browser: move sliders, drag the rod, poke it, watch the flight. Ctrl-C ends it."""
     if html is not None:
         refuse_idle("host", "port", "browser", "law", why="beside --html, whose page has no server")
-        from flypend.lab.alone import page_alone
+        from flypend.lab.standalone import lab_page
 
         with whole_file(html, (".html",)) as written, counter() as tell:
-            written.write_text(page_alone(tell=tell), encoding="utf-8")
+            written.write_text(lab_page(tell=tell), encoding="utf-8")
         console.print(f"The laboratory is in {bold(html)}.")
         return
     require("tornado", extra="lab", for_="lab")

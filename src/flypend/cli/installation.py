@@ -43,7 +43,7 @@ def laws(name: str | None, vehicle: str) -> None:
 @click.option("-o", "--out", type=FIGURE, help="Draw VEHICLE into this file, .png, .pdf or .svg.")
 def vehicles(vehicle: str | None, out: Path | None) -> None:
     """List the vehicles, or print the TOML of VEHICLE (a name or a file), or with -o draw it on its mounts."""
-    from flypend.model.shipped import vehicle_text
+    from flypend.model.by_name import vehicle_text
 
     if vehicle is None:
         if out is not None:

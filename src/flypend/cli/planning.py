@@ -145,7 +145,7 @@ def plan(
     aim, place = given.pop("objective"), given.pop("target")
     kept = keep.about(place, given)
     found = fp.plan(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
-    console.print(f"{machine.name}: {found.told}", markup=False)
+    console.print(f"{machine.name}: {found.summary}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")
     if also.csv is not None:

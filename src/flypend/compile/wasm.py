@@ -44,7 +44,7 @@ def _sections(code: bytes) -> list[tuple[int, bytes]]:
     reader, found = _Reader(code, len(HEAD)), []
     while reader.left():
         number = reader.byte()
-        found.append((number, reader.taken(reader.unsigned())))
+        found.append((number, reader.take(reader.take_unsigned())))
     return found
 
 
@@ -53,20 +53,20 @@ def _functions(content: bytes) -> Iterator[tuple[str, int]]:
     reader = _Reader(content)
     if reader.text() != "linking":
         return
-    reader.unsigned()  # version
+    reader.take_unsigned()  # version
     while reader.left():
-        part, inside = reader.byte(), _Reader(reader.taken(reader.unsigned()))
+        part, inside = reader.byte(), _Reader(reader.take(reader.take_unsigned()))
         if part != _SYMBOLS:
             continue
-        for _ in range(inside.unsigned()):
-            kind, flags = inside.byte(), inside.unsigned()
+        for _ in range(inside.take_unsigned()):
+            kind, flags = inside.byte(), inside.take_unsigned()
             if kind == _DATA:
                 inside.text()
                 if not flags & _UNDEFINED:
                     for _ in range(3):  # segment, offset and size
-                        inside.unsigned()
+                        inside.take_unsigned()
                 continue
-            place = inside.unsigned()
+            place = inside.take_unsigned()
             if kind == _SECTION or (flags & _UNDEFINED and not flags & _NAMED):
                 continue
             name = inside.text()
@@ -83,16 +83,16 @@ class _Reader:
     def left(self) -> bool:
         return self.place < len(self.content)
 
-    def taken(self, length: int) -> bytes:
+    def take(self, length: int) -> bytes:
         self.place += length
         if self.place > len(self.content):
             raise ValueError("a whole object file is needed, not one that is cut")
         return self.content[self.place - length : self.place]
 
     def byte(self) -> int:
-        return self.taken(1)[0]
+        return self.take(1)[0]
 
-    def unsigned(self) -> int:
+    def take_unsigned(self) -> int:
         """An integer in seven bits a byte, the lowest first (LEB128)."""
         number = shift = 0
         while True:
@@ -103,7 +103,7 @@ class _Reader:
             shift += 7
 
     def text(self) -> str:
-        return self.taken(self.unsigned()).decode()
+        return self.take(self.take_unsigned()).decode()
 
 
 def _encode_unsigned(number: int) -> bytes:

@@ -155,7 +155,7 @@ class Worlds:
         return bool(self.arrays["memories"][0, 1, 0] > 0)
 
     @property
-    def seen(self) -> NDArray[np.float32]:
+    def shown(self) -> NDArray[np.float32]:
         """What a learner gets (count, (history + 1) k)."""
         return self.arrays["seen" if self.late else "recent" if self.history else "observations"][: self.count]
 
@@ -167,14 +167,14 @@ class Worlds:
             recent[:, :k] = self.observations
             recent[anew] = np.tile(self.observations[anew], recent.shape[1] // k)
         if self.late:
-            self.seen[:] = recent[:, self.late * k :]
+            self.shown[:] = recent[:, self.late * k :]
 
     def last_observation(self, over: NDArray[np.bool_]) -> NDArray[np.float32]:
         """Return what a learner gets (count, (history + 1) k) at the end of the worlds `over`; 0 elsewhere.
 
         To be called before `remember`.
         """
-        shown, k = np.zeros_like(self.seen), self.observations.shape[1]
+        shown, k = np.zeros_like(self.shown), self.observations.shape[1]
         rows = self.last[over]
         if len(recent := self.arrays["recent"][: self.count]):
             rows = np.concatenate([rows, recent[over, :-k]], axis=1)
@@ -201,7 +201,7 @@ class Worlds:
         self._call(fresh=0)
 
     @contextmanager
-    def held(self, which: NDArray[np.bool_]) -> Iterator[None]:
+    def hold(self, which: NDArray[np.bool_]) -> Iterator[None]:
         """Keep the worlds `which` (count,) as they are, whatever is done to all of them inside."""
         worlds = np.flatnonzero(which)
         groups, lanes = np.divmod(worlds, WIDTH)

@@ -15,7 +15,7 @@ from flypend.envs.randomise import Randomisation
 from flypend.envs.task import Task
 from flypend.errors import InputError
 from flypend.model import Vehicle
-from flypend.model.shipped import vehicle as vehicle_named
+from flypend.model.by_name import vehicle as vehicle_named
 from flypend.plants.plant import ROTORS
 
 TASKS: Mapping[str, Callable[..., Task]] = {

@@ -17,13 +17,13 @@ from flypend.envs.sensing import Estimates
 from flypend.envs.task import Moment, Task
 from flypend.errors import InputError
 from flypend.flight.touch import touch_of
-from flypend.laws.seen import ATTITUDES, Attitude, moment_action, observe_state, rotor_action, thrust_action, to_body
+from flypend.laws.policy import ATTITUDES, Attitude, moment_action, observe_state, rotor_action, thrust_action, to_body
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
 from flypend.plants.actuation import rate_loop, rotor_forces
 from flypend.plants.equations import step_state
 from flypend.plants.lag import symbolic_timing
-from flypend.plants.motors import motor_timing, moving, settle_forces, timing_size
+from flypend.plants.motors import motion_parts, motor_timing, settle_forces, timing_size
 from flypend.plants.plant import LONGEST_DELAY, Sampled
 from flypend.plants.sensors import sensors_called
 
@@ -215,7 +215,7 @@ class Parts:
         env, n = self.env, self.env.rotors
         s, r, u, w, h, p = _symbols(s=SIZE, r=n, u=n, w=6, h=self.timing, p=self.numbers)
         vehicle: Any = Varied(self.true, p) if self.numbers else self.true
-        plant, commanded = moving(env.plant), p[3:] * u if self.numbers else u
+        plant, commanded = motion_parts(env.plant), p[3:] * u if self.numbers else u
         settled = settle_forces(commanded, vehicle.rotor_limits[1], plant.strength, plant.sag)
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, settled, wind, h, vehicle, plant))

@@ -60,7 +60,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         self.worlds.begin(np.array([fresh], dtype=np.int64))
         self.worlds.remember(EVERY)
         self._flown, self._goal = [self.worlds.states[0]], self.worlds.goals[0]
-        return self.worlds.seen[0].copy(), {}
+        return self.worlds.shown[0].copy(), {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Advance by `action` (m,), each entry in [−1, 1]. Raises InputError for another shape."""
@@ -73,7 +73,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         worlds.remember(over)
         if not over[0]:
             self._flown.append(worlds.states[0])
-        seen = (last if over[0] else worlds.seen)[0].copy()
+        seen = (last if over[0] else worlds.shown)[0].copy()
         return seen, float(worlds.rewards[0]), terminated, truncated, {}
 
     def render(self) -> Any:

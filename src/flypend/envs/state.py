@@ -88,7 +88,7 @@ class Stateful:
 
     def _spaces(self) -> tuple[Box, Box]:
         """Return the spaces of the observations and of the actions of one world."""
-        observed = Box(-BOUND, BOUND, self.worlds.seen.shape[1:], np.float32)
+        observed = Box(-BOUND, BOUND, self.worlds.shown.shape[1:], np.float32)
         return observed, Box(-1.0, 1.0, (self.worlds.env.actions,), np.float32)
 
     def _check_begun(self) -> None:

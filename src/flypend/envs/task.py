@@ -58,7 +58,7 @@ class Moment(NamedTuple):
     vehicle: Vehicle
 
 
-def nothing(now: Moment) -> Any:
+def observe_nothing(now: Moment) -> Any:
     """Observe nothing else."""
     return ca.SX(0, 1)
 
@@ -98,7 +98,7 @@ class Task:
     ended: Callable[[Moment], Any]
     duration: float
     ahead: tuple[float, ...] = ()
-    shown: Callable[[Moment], Any] = nothing
+    shown: Callable[[Moment], Any] = observe_nothing
     defaults: Mapping[str, Any] = field(default_factory=dict)
     mounts: tuple[str, ...] = ("gimbal", "hub", "cup")
 

@@ -20,8 +20,8 @@ from flypend.export import records
 from flypend.export.fits import BUDGETS, PX4_STACK, check_fits
 from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
+from flypend.export.rehearsal import Room, measure_room
 from flypend.export.source import describe, initializer, literals
-from flypend.export.tested import Room, measure_room
 from flypend.export.write import core, fill, values_of
 from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law

@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 
 from flypend.errors import InputError
 from flypend.export.interface import Interface
-from flypend.signals import waiting
+from flypend.signals import polling
 
 COMPILER = "arm-none-eabi-gcc"
 # Cycles of an operation, about those of the learned law, whose step is the longest (benchmarks/app_cost.py).
@@ -81,7 +81,7 @@ def check_fits(made: Interface, texts: Mapping[str, str], budget: Budget) -> Map
     flown = made.board if made.sensing is None else made.sensing.board
     taken = {"cycles": CYCLES_OF_OPERATION * flown.operations()}
     if shutil.which(COMPILER):
-        taken |= compiled(tuple(sorted(texts.items())), budget)
+        taken |= measure_size(tuple(sorted(texts.items())), budget)
     over = {what: number for what, number in taken.items() if number > budget.most.get(what, number)}
     if over:
         wanted = ", ".join(f"{budget.most[what]:,} {what}" for what in over)
@@ -93,7 +93,7 @@ def check_fits(made: Interface, texts: Mapping[str, str], budget: Budget) -> Map
 
 
 @lru_cache(maxsize=8)
-def compiled(texts: tuple[tuple[str, str], ...], budget: Budget) -> dict[str, int]:
+def measure_size(texts: tuple[tuple[str, str], ...], budget: Budget) -> dict[str, int]:
     """Return the bytes of stack, flash and RAM that an app with the computer of `texts`, by file, takes of `budget`."""
     names = [Path(name).stem for name, _ in texts if name.endswith(".c")]
     computer = "sensors" if "flypend_sensors" in names else "board"
@@ -137,7 +137,7 @@ def deepest(graph: str, entry: str) -> int:
 
 
 def _run(folder: Path, *words: str) -> str:
-    done = waiting.run(words, cwd=folder, text=True)
+    done = polling.run(words, cwd=folder, text=True)
     if done.returncode:
         raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
     return str(done.stdout)

@@ -21,7 +21,7 @@ from flypend.errors import InputError
 from flypend.export import records
 from flypend.export.safe import hold_level
 from flypend.laws import BoundLaw, Law
-from flypend.laws.throw import carrying, derivatives
+from flypend.laws.throw import bob_path, derivatives
 from flypend.model import State, Vehicle
 from flypend.model.allocation import allocate
 from flypend.model.state import SIZE
@@ -95,7 +95,7 @@ class Interface:
     @property
     def law(self) -> BoundLaw:
         """The bound law, as calm as its sensors ask for."""
-        return _calmed(self.loop, None if self.sensing is None else self.sensing.sensors)
+        return _calm(self.loop, None if self.sensing is None else self.sensing.sensors)
 
     @property
     def vehicle(self) -> Vehicle:
@@ -140,7 +140,7 @@ def _interface(law: BoundLaw, vehicle: Vehicle, rate: float, sensors: Sensors | 
     params = ca.SX.sym("params", record.length)
     stand_in = records.SymbolicVehicle(params, record, vehicle)
     nominal = Nominal(stand_in, params)
-    names, constant, steering = _law(_calmed(loop, sensors), params, stand_in)
+    names, constant, steering = _law(_calm(loop, sensors), params, stand_in)
     loop = replace(loop, parameters=tuple(names))
     functions = {function.name(): function for function in (steering, *_around(loop, params, stand_in))}
     programs = {name: lower(function) for name, function in functions.items()}
@@ -190,7 +190,7 @@ def _sound(sensors: Sensors) -> ca.Function:
 # The law ----------------------------------------------------------------------------------------------------------
 
 
-def _calmed(loop: Loop, sensors: Sensors | None) -> BoundLaw:
+def _calm(loop: Loop, sensors: Sensors | None) -> BoundLaw:
     """Return the law of `loop`, as calm as `sensors` ask for."""
     return replace(loop, plant=loop.sampled.replace(sensors=sensors)).symbolic
 
@@ -277,7 +277,7 @@ def reference_numbers(vehicle: Any, path: Any, on_bob: Any) -> Any:
     `vehicle` has numbers or symbols; `path` are the numbers of its record, `on_bob` (3,) is the force on the bob, N.
     """
     t = ca.SX.sym("t")
-    x, p, _ = carrying(lambda time: _polynomial(ca.vertsplit(path, 3), time))(t, vehicle, on_bob)
+    x, p, _ = bob_path(lambda time: _polynomial(ca.vertsplit(path, 3), time))(t, vehicle, on_bob)
     orders = len(records.ORDERS)
     values = ca.vertcat(x, *derivatives(x, t, orders - 1), p, *derivatives(p, t, orders - 1))
     return ca.densify(ca.substitute(values, t, 0))

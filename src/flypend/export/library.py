@@ -32,7 +32,7 @@ from flypend.plants import AnyPlant, Ideal
 from flypend.plants.loop import Loop
 from flypend.plants.sensing import readings_record
 from flypend.plants.sensors import Sensors
-from flypend.signals import waiting
+from flypend.signals import polling
 
 NOT_BEGUN = 8  # of flypend_status
 FLAGS = (
@@ -216,7 +216,7 @@ def _compile(folder: Path) -> Path:
     target = folder / "law.so"
     sources = [str(path) for path in sorted(folder.glob("*.c"))]
     command = [compiler, *FLAGS, "-shared", "-fPIC", *sources, "-lm", "-o", str(target)]
-    done = waiting.run(command, text=True)
+    done = polling.run(command, text=True)
     if done.returncode:
         raise InputError("controller", f"C code that {compiler} compiles", done.stderr.strip()[:500])
     return target

@@ -30,9 +30,9 @@ from flypend.files.staging import write_texts
 from flypend.model import Vehicle
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import LEAST_ROOM, Stage, Units
-from flypend.planning.feedback import deviation, hovering, regulator
+from flypend.planning.feedback import deviation, hover_deviation, regulator
 from flypend.planning.inequalities import HIGH, LOW, SHARED, Barrier, Structure
-from flypend.planning.planner import coarsened
+from flypend.planning.planner import coarsen
 from flypend.planning.problem import Request
 from flypend.planning.real_time import MOST_FAILED, SETTINGS, SUBSTEPS, SUNK
 from flypend.planning.result import Plan
@@ -93,7 +93,7 @@ def files(plan: Plan, precision: Precision) -> dict[str, str]:
 
 def _values(plan: Plan, precision: Precision) -> dict[str, Any]:
     feedback, n = regulator(plan), len(plan.vehicle.rotor_spins)
-    programs = [lower(made) for made in (advance(plan.vehicle), deviation(n), hovering(n))]
+    programs = [lower(made) for made in (advance(plan.vehicle), deviation(n), hover_deviation(n))]
     size = max(scratch(program).size for program in programs)
     return _of_both(plan, precision) | {
         "scratch": f"    {REAL} {SCRATCH}[{size}];\n" if size else "",
@@ -166,7 +166,7 @@ def export_nmpc(plan: Plan, folder: str | Path, *, precision: Precision = "float
         or its vehicle has a hub or cup.
     """
     errors.one_of("precision", precision, PRECISIONS)
-    values = _again(*coarsened(plan, COARSER), precision)
+    values = _again(*coarsen(plan, COARSER), precision)
     write_texts(folder, {name: fill(name, values) for name in ("flypend_nmpc.h", "flypend_nmpc.c")})
 
 

@@ -21,8 +21,8 @@ from flypend.compile.record import Record
 from flypend.errors import InputError
 from flypend.export import records, vectors
 from flypend.export.interface import Interface, interface
+from flypend.export.rehearsal import fly_tests
 from flypend.export.source import ascii_of, functions, initializer, literals, offsets, sensor_values, struct, unread
-from flypend.export.tested import fly_tests
 from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle

@@ -134,13 +134,13 @@ class _Reader:
     def file(self) -> tuple[dict[str, Variable], dict[str, Any]]:
         if self._int():
             raise ValueError("files with records are not supported")
-        dimensions = list(self._named(DIMENSIONS, lambda _: self._int()).items())
-        attributes = self._named(ATTRIBUTES, self._attribute)
-        entries = self._named(VARIABLES, lambda name: self._entry(name, dimensions))
+        dimensions = list(self._read_named(DIMENSIONS, lambda _: self._int()).items())
+        attributes = self._read_named(ATTRIBUTES, self._attribute)
+        entries = self._read_named(VARIABLES, lambda name: self._entry(name, dimensions))
         self._check_apart(entries)
         return {name: self._variable(entry) for name, entry in entries.items()}, attributes
 
-    def _named(self, tag: int, read: Callable[[str], T]) -> dict[str, T]:
+    def _read_named(self, tag: int, read: Callable[[str], T]) -> dict[str, T]:
         """Return what `read` returns for the name of each entry of a list. Raises ValueError for a name twice."""
         kind, count = self._int(), self._int()
         if kind != tag and (kind or count):
@@ -159,7 +159,7 @@ class _Reader:
         numbers = [self._int() for _ in range(min(self._int(), MOST_DIMENSIONS + 1))]
         if len(numbers) > MOST_DIMENSIONS or any(number >= len(dimensions) for number in numbers):
             raise ValueError(f"corrupt header (dimensions of {name})")
-        about, dtype = self._named(ATTRIBUTES, self._attribute), self._dtype()
+        about, dtype = self._read_named(ATTRIBUTES, self._attribute), self._dtype()
         self._int()  # size in bytes, implied by the shape
         begin = int.from_bytes(self._take(self._offset))
         dims = tuple(dimensions[number][0] for number in numbers)

@@ -12,20 +12,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from flypend import errors, plants, signals
 from flypend.flight.criterion import Criterion
+from flypend.flight.files import ARRAYS
 from flypend.flight.kernels import fly_all, has_kernel
-from flypend.flight.kernels.flown import Progress
-from flypend.flight.labelled import dataset, describe, state_variables, variable
+from flypend.flight.kernels.results import Progress
+from flypend.flight.labels import dataset, describe, state_variables, variable
 from flypend.flight.metrics import Metrics, judge, metrics, wilson
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, check_batch, some_times
 from flypend.flight.sampled import nearest_ticks
-from flypend.flight.saved import ARRAYS
 from flypend.flight.simulate import ENGINES, fly
 from flypend.flight.trajectory import Trajectory
 from flypend.laws import AnyLaw, Controller
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE, E3Direction
 from flypend.plants import AnyPlant, Sampled
-from flypend.signals import waiting
+from flypend.signals import polling
 
 if TYPE_CHECKING:
     import xarray
@@ -264,9 +264,9 @@ def _chunks(flight: Flight, engine: str, processes: int) -> Iterator[list[Member
     if processes == 1 or len(chunks) == 1 or not _can_be_sent(flight.law):
         yield from (chunk(indices) for indices in chunks)
     else:
-        with waiting.processes(processes) as submit:
+        with polling.processes(processes) as submit:
             for call in [submit(chunk, indices) for indices in chunks]:
-                yield waiting.result_of(call)
+                yield polling.result_of(call)
 
 
 def _member(flight: Flight, engine: str) -> Member:

@@ -17,9 +17,9 @@ from flypend.building import builds
 from flypend.compile.llvm import runge_kutta, sampled
 from flypend.errors import InputError
 from flypend.flight.criterion import PARTS, REDUCTIONS
-from flypend.flight.kernels.flown import STATUS
 from flypend.flight.kernels.launch import reasons
 from flypend.flight.kernels.pieces import pieces_problem
+from flypend.flight.kernels.results import STATUS
 from flypend.flight.kernels.sampled import JUDGED
 from flypend.flight.kernels.web import LANES, true_vehicle, web_module
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances
@@ -131,7 +131,7 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
     """
     law, true = loop.symbolic, true_vehicle(loop)
     criterion = goal(law.e3)
-    facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled(loop)
+    facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled_facts(loop)
     told = reasons(loop)
     if runge_kutta.TOO_MANY in told:
         told[runge_kutta.TOO_MANY] = "more integration steps than a page takes"
@@ -158,7 +158,7 @@ def inflate(code: str) -> bytes:
     return zlib.decompress(base64.b64decode(code), wbits=RAW)
 
 
-def _sampled(loop: Loop) -> dict[str, Any]:
+def _sampled_facts(loop: Loop) -> dict[str, Any]:
     vehicle, plant = loop.vehicle, loop.sampled
     return {
         "kind": "sampled", "arguments": list(sampled.ARGUMENTS),

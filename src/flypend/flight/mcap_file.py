@@ -30,7 +30,7 @@ def write_mcap(path: str | Path, run: Any, variables: Mapping[str, Variable], at
     turns = {"vehicle": quat_xyzw_from_rotation(run.R), "rod": _rod_turns(run.y)}
 
     def transform(i: int, frame: str) -> dict[str, Any]:
-        place = {"translation": _named(XYZ, run.x[i]), "rotation": _named(XYZW, turns[frame][i])}
+        place = {"translation": _by_name(XYZ, run.x[i]), "rotation": _by_name(XYZW, turns[frame][i])}
         return {"timestamp": _time(stamps[i])} | dict(zip(FRAMES, ("world", frame), strict=True)) | place
 
     def sample(i: int) -> dict[str, Any]:
@@ -82,9 +82,9 @@ def _entities(run: Any, time: dict[str, int]) -> list[dict[str, Any]]:
 
 def _solid(place: Any, size: Any, colour: str) -> dict[str, Any]:
     """Return a cylinder along z, or a sphere, of a `size` and at a `place` (3,), m; `colour` is as in `palette`."""
-    pose = {"position": _named(XYZ, place), "orientation": _named(XYZW, (0, 0, 0, 1))}
+    pose = {"position": _by_name(XYZ, place), "orientation": _by_name(XYZW, (0, 0, 0, 1))}
     shares = [part / 255 for part in (*bytes.fromhex(colour[1:]), 255)]
-    shape = {"pose": pose, "size": _named(XYZ, size), "color": _named(("r", "g", "b", "a"), shares)}
+    shape = {"pose": pose, "size": _by_name(XYZ, size), "color": _by_name(("r", "g", "b", "a"), shares)}
     return shape | {"bottom_scale": 1.0, "top_scale": 1.0}
 
 
@@ -92,7 +92,7 @@ def _time(stamp: int) -> dict[str, int]:
     return {"sec": stamp // 10**9, "nsec": stamp % 10**9}
 
 
-def _named(names: tuple[str, ...], values: Any) -> dict[str, float]:
+def _by_name(names: tuple[str, ...], values: Any) -> dict[str, float]:
     return dict(zip(names, map(float, values), strict=True))
 
 

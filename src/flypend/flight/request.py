@@ -198,7 +198,7 @@ class Flight:
         if isinstance(self.plant, Ideal) and self.plant.lag:
             if self.vehicle.rotor_lag <= 0:
                 raise InputError("vehicle.rotor_lag", "a lag > 0 s, for Ideal(lag=True)", f"{self.vehicle.rotor_lag:g}")
-            self.plant.beginning(self.vehicle, self.runs, self.law.e3)  # raises for wrong forces
+            self.plant.initial_wrench(self.vehicle, self.runs, self.law.e3)  # raises for wrong forces
         if isinstance(self.law, BoundLaw) and self.law.uses_wrench and not self.loop.lag:
             wanted = f"flypend.Ideal(lag=True), for {self.law.name}, which knows the rotors' lag and wrench"
             raise InputError("plant", wanted, "another")
@@ -261,7 +261,7 @@ class Flight:
         found: NDArray[np.float64] = np.atleast_2d(self.starts.packed())
         if self.loop.lag:
             assert isinstance(self.plant, Ideal)
-            found = np.concatenate([found, self.plant.beginning(self.vehicle, self.runs, self.law.e3)], axis=1)
+            found = np.concatenate([found, self.plant.initial_wrench(self.vehicle, self.runs, self.law.e3)], axis=1)
         return found
 
     @property

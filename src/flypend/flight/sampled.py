@@ -30,7 +30,7 @@ from flypend.plants.actuation import Actuation, make_engine
 from flypend.plants.loop import Loop
 from flypend.plants.measurement import GUST_MEMORY, GUSTS, MEASUREMENT, gusts, measurement, noise_numbers, wind_numbers
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import within_period
+from flypend.plants.schedule import segments_within
 from flypend.plants.sensing import START_TICK, draws_size, first_estimate, first_memory, sensing, start_draws
 
 NOT_FINITE = "the law's wrench is not a finite number"
@@ -69,7 +69,7 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     measure, next_wind = _chance(vehicle, plant, packed, ticks)
     computer = flight_computer(loop, begin, estimate_at_start(plant, packed))
     states, forces = [engine.packed], [engine.rotors]
-    segments = within_period(plant.delay, period)
+    segments = segments_within(plant.delay, period)
     commands = [idle_command(loop, begin)] * max(age for age, _ in segments)  # in effect before the first
     outcome = Outcome("completed", ticks * period)
     watch, there = watcher(true, floor=plant.floor), np.append(engine.packed, engine.rotors)

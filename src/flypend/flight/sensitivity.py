@@ -16,10 +16,10 @@ from flypend.compile.llvm import jit
 from flypend.compile.problem import Problem
 from flypend.compile.program import lower
 from flypend.errors import InputError
-from flypend.flight.kernels.flown import Flown, inputs_of
 from flypend.flight.kernels.ideal import Moments, call, compile_ideal
+from flypend.flight.kernels.results import Flown, inputs_of
 from flypend.flight.kernels.stopping import heard
-from flypend.flight.labelled import dataset, describe, state_variables, variable
+from flypend.flight.labels import dataset, describe, state_variables, variable
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import BoundLaw, Law

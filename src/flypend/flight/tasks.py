@@ -86,7 +86,7 @@ def fly_tasks(
     return found
 
 
-def touching(vehicle: Vehicle, starts: State) -> Any:
+def touches(vehicle: Vehicle, starts: State) -> Any:
     """Return whether the rod of each of `starts` (n,), e₃ up, is where the mount does not let it be."""
     hover = Wrench(np.full(len(starts), vehicle.weight), np.zeros((len(starts), 3)))
     return np.any(margins(starts, hover, vehicle, "up") < 0, axis=-1)
@@ -120,7 +120,7 @@ def free_starts(
     packed = np.empty((0, SIZE))
     for _ in range(MOST_DRAWS):
         drawn = draw(rng, runs)
-        packed = np.concatenate([packed, drawn.packed()[~touching(vehicle, drawn)]])
+        packed = np.concatenate([packed, drawn.packed()[~touches(vehicle, drawn)]])
         if len(packed) >= runs:
             return State.trusted(packed[:runs])
     raise InputError("vehicle.body", "a machine with room for its rod", f"one it touches in {MOST_DRAWS * runs} poses")

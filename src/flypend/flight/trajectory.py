@@ -13,8 +13,8 @@ import numpy as np
 from flypend import errors
 from flypend.files.netcdf import Variable
 from flypend.files.whole import whole_file
-from flypend.flight import saved
-from flypend.flight.labelled import dataframe, dataset, describe, variable
+from flypend.flight import files
+from flypend.flight.labels import dataframe, dataset, describe, variable
 from flypend.flight.outcome import Outcome
 from flypend.geometry import Matrix, Numbers, Vector, cross, dot, norm
 from flypend.model import State, Vehicle, Wrench, rod_tension
@@ -207,7 +207,7 @@ class Trajectory:
         `fp.load` reads it. The file is written atomically. Raises InputError if it is not writable, or if the run could
         not be loaded again, because its arrays differ in length or its states are invalid.
         """
-        saved.write(path, *saved.content(self._variables(), self._attributes(), self.drift))
+        files.write(path, *files.content(self._variables(), self._attributes(), self.drift))
 
     def to_mcap(self, path: str | Path) -> None:
         """Write the run to an MCAP file (.mcap), atomically, for Foxglove, PlotJuggler and ROS 2's tools; e₃ is up.
@@ -235,7 +235,7 @@ class Trajectory:
     def _variables(self) -> dict[str, Variable]:
         """Return the sampled arrays with their dimensions and units."""
         over = ("t",)
-        arrays = {name: getattr(self, name) for name in saved.ARRAYS} | dict(self.signals)
+        arrays = {name: getattr(self, name) for name in files.ARRAYS} | dict(self.signals)
         return {name: variable(name, over, value) for name, value in arrays.items()}
 
     def _attributes(self) -> dict[str, Any]:
@@ -323,4 +323,4 @@ def load(path: str | Path) -> Trajectory:
 
     Raises InputError if the file holds no valid run: every number and name is checked, with or without a digest.
     """
-    return Trajectory(**saved.run_from(*saved.read(path, saved.KIND), str(path))[0])
+    return Trajectory(**files.run_from(*files.read(path, files.KIND), str(path))[0])

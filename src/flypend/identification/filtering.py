@@ -75,9 +75,9 @@ class Pass:
 
 def run_filter(
     grid: Grid, forces: Forces, by_rotors: Numbers, moving: Numbers, reading: Numbers, noises: Noises,
-    programs: Programs, gated_streams: bool,
+    programs: Programs, gated: bool,
 ) -> Pass:  # fmt: skip
-    """Filter the readings of `grid`, weighing them by `noises`; if `gated_streams`, those beyond `GATE` are left out.
+    """Filter the readings of `grid`, weighing them by `noises`; if `gated`, those beyond `GATE` are left out.
 
     `forces` are those of the rotors at the grid; `by_rotors` (2, k, n, q) are derivatives of the mean over the step
     that follows, and of the force now, by the numbers of the rotors. `moving` and `reading` are numbers of
@@ -108,7 +108,7 @@ def run_filter(
             turned = z[3:12].reshape(3, 3).T @ y[3:12].reshape(3, 3)
             e_all[3:6] = turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]
             e_all[3:6] /= 2
-            if gated_streams and k >= settled:
+            if gated and k >= settled:
                 H = H_all[:, :LOCAL]
                 far = (e_all**2 > GATE**2 * (((H @ P) * H).sum(axis=1) + variances[k])) & seen
                 if far.any():

@@ -72,7 +72,7 @@ class Search:
         """Return d(number)/dθ, (p,)."""
         return np.where(self.logarithmic, self.plain(theta), 1.0)
 
-    def within(self, theta: Numbers) -> Any:
+    def clip(self, theta: Numbers) -> Any:
         """Return θ (p,) with what has limits clipped to them."""
         low, high = np.full(len(theta), -np.inf), np.full(len(theta), np.inf)
         for name, place in places(self.table).items():
@@ -145,7 +145,7 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
     prior = np.where(free, search.spread, 1.0) ** -2
     for k in range(PASSES):
         with threadpool_limits(1):  # matrices are small
-            found = one_pass(log, search, theta, noises, programs, pwm, gated_streams=k >= UNGATED)
+            found = one_pass(log, search, theta, noises, programs, pwm, gated=k >= UNGATED)
         if not np.isfinite(found.scores).all():
             raise InputError("log", "a flight that the equations of the vehicle can follow", "one that they cannot")
         slope = search.slope(theta)
@@ -154,7 +154,7 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
         bread = np.linalg.inv(information)
         step = np.zeros(len(theta))
         step[free] = bread @ (scores.sum(axis=0) - (prior * theta)[free])
-        after = search.within(theta + step)
+        after = search.clip(theta + step)
         moved = float(np.max(np.abs(after - theta)[free] / np.sqrt(np.diag(bread))))
         if progress is not None:
             progress("pass", k + 1, PASSES)
@@ -174,7 +174,7 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
 
 
 def one_pass(
-    log: Log, search: Search, theta: Numbers, noises: Noises, programs: Programs, pwm: bool, gated_streams: bool
+    log: Log, search: Search, theta: Numbers, noises: Noises, programs: Programs, pwm: bool, gated: bool
 ) -> Pass:
     """Run the filter with the numbers at θ; its scores are by the numbers themselves."""
     names = rotor_table(log.command.shape[1])
@@ -189,7 +189,7 @@ def one_pass(
 
     middle = forces(now["rotors"])
     slopes = rotor_slopes(middle, forces, now["rotors"], names, free["rotors"])
-    return run_filter(grid, middle, slopes, now["moving"], now["reading"], noises, programs, gated_streams)
+    return run_filter(grid, middle, slopes, now["moving"], now["reading"], noises, programs, gated)
 
 
 def first_noises(vehicle: Vehicle, log: Log) -> Noises:

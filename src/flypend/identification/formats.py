@@ -246,7 +246,7 @@ def parse_usd(content: Content, field: str = "log") -> dict[str, Any]:
     if content[-CHECKSUM:] != crc32(content[:-CHECKSUM]).to_bytes(CHECKSUM, "little"):
         raise InputError(field, "a whole µSD log, stopped before power off", "a checksum that does not fit")
     try:
-        return _sampled(content, *_kinds(content), field)
+        return _read_events(content, *_kinds(content), field)
     except (struct.error, ValueError, IndexError, KeyError) as error:
         raise InputError(field, "a µSD log of the Crazyflie", f"{type(error).__name__}: {error}") from None
 
@@ -273,7 +273,7 @@ def _text(content: Content, at: int) -> tuple[str, int]:
     return content[at:end].decode("ascii"), end + 1
 
 
-def _sampled(content: Content, kinds: dict[int, Any], at: int, field: str) -> dict[str, Any]:
+def _read_events(content: Content, kinds: dict[int, Any], at: int, field: str) -> dict[str, Any]:
     """Return the columns of the sampled events in `content`, from the byte `at` on. Raises InputError."""
     rows: list[tuple[float, ...]] = []
     names: list[str] = []

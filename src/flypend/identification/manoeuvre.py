@@ -22,7 +22,7 @@ from flypend.plants.equations import rates_under
 from flypend.plants.measurement import wind_numbers
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Plant, Wind
-from flypend.plants.schedule import within_period
+from flypend.plants.schedule import segments_within
 
 RATE = 250.0  # Hz, of commands and rows
 STEP_TIME, STEP = 2.5, 0.4  # s between steps of the place that is held, and their size, m
@@ -73,7 +73,7 @@ def rehearse(
     engine.reset(State(y=(0, 0, -1)).packed(), hover)
     where = rng.uniform(-STEP, STEP, (int(duration / STEP_TIME) + 1, 3))  # the places to hold
     biases = bias * rng.normal(size=6) * np.repeat([1, 10], 3)
-    segments, felt = within_period(plant.delay, h), _specific_force(true, plant)
+    segments, felt = segments_within(plant.delay, h), _specific_force(true, plant)
     asked = [hover] * (2 + max(age for age, _ in segments))
     wind, gust, rows, states = plant.wind, np.zeros(6), [], []
     decay, on_vehicle, on_bob, *steady = wind_numbers(wind, h)[:9]

@@ -23,7 +23,7 @@ from flypend.model.state import SIZE
 from flypend.plants.cascade import rotation_by
 from flypend.plants.equations import rates_under, runge_kutta_step
 from flypend.plants.lag import Ramp
-from flypend.plants.measurement import displaced
+from flypend.plants.measurement import displace
 from flypend.plants.plant import Plant
 
 ERROR, GUST = 18, 6  # numbers of a local error of the state, and of the gusts
@@ -63,7 +63,7 @@ def machine(vehicle: Vehicle, moving: Numbers) -> Any:
     return Altered(
         vehicle, M=M, mass=M, m=share * v["bob_mass"], l=v["rod_length"] / share, I=principal,
         I_inv=ca.inv_minor(principal), pivot_offset=v["pivot_offset"], drag_ratio=v["drag_ratio"], wind=v["wind"],
-        rubs=False, rod_spin=0.0, air=SimpleNamespace(rotor_drag=v["rotor_drag"], known=lambda: ("rotor_drag",)),
+        rubs=False, rod_spin=0.0, air=SimpleNamespace(rotor_drag=v["rotor_drag"], active=lambda: ("rotor_drag",)),
     )  # fmt: skip
 
 
@@ -136,7 +136,7 @@ def specific_force(state: State, rates: State, vehicle: Any) -> Any:
 
 def correct(packed: Numbers, error: Numbers) -> Numbers:
     """Return the packed state (24, 1) on the manifold that a local `error` (18, 1) makes of `packed`."""
-    return displaced(State.symbolic(packed), error).packed()
+    return displace(State.symbolic(packed), error).packed()
 
 
 def shift(packed: Numbers, error: Numbers) -> Numbers:

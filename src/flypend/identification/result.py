@@ -12,7 +12,7 @@ from flypend.identification.fit import FIELDS, Fit
 from flypend.identification.model import CHANNELS, places
 from flypend.identification.rotors import patterns
 from flypend.model import Vehicle
-from flypend.model.rod import stretched
+from flypend.model.rod import stretch
 from flypend.plants.plant import Plant
 
 # Student's t with as many degrees of freedom as scores of segments, 30 in a minute, at 97.5 %.
@@ -151,7 +151,7 @@ def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> 
     a, b, c = values["inertia"]
     flat = min(1.0, (a + b) / c)  # moments keep the triangle inequality; what is told is their quotient with the torque
     np.fill_diagonal(inertia, [a, b, flat * c])
-    rod = stretched(guess, number["bob_mass"] / guess.bob_mass, number["rod_length"] / guess.rod_length)
+    rod = stretch(guess, number["bob_mass"] / guess.bob_mass, number["rod_length"] / guess.rod_length)
     changes: dict[str, Any] = rod | {
         "inertia": inertia, "drag_ratio": flat * number["drag_ratio"], "rotor_lag": number["lag"],
         "thrust_scale": float(np.exp(number["scale"])), "bands": bands,

@@ -18,7 +18,7 @@ from flypend.flight.request import Flight
 from flypend.lab.own import NONE, OwnLaws
 from flypend.laws import BoundLaw, Controller, Law, law_from_dict
 from flypend.model import State, Vehicle
-from flypend.model.shipped import vehicle_table
+from flypend.model.by_name import vehicle_table
 from flypend.model.state import SHAPES
 from flypend.model.table import vehicle_names
 from flypend.pages.offers import plain, sliders_of

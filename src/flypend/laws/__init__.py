@@ -8,13 +8,13 @@ from typing import Any
 
 from flypend.laws.almost_global import almost_global, almost_global_lag
 from flypend.laws.bound import BoundLaw, Computer, Control, Guard
+from flypend.laws.by_name import FACTORIES, law_from_dict, law_names
 from flypend.laws.gain import Bounds, Gain
 from flypend.laws.inverted import inverted
 from flypend.laws.law import Law
+from flypend.laws.law_error import LawError
 from flypend.laws.learned import learned
-from flypend.laws.located import LawError
 from flypend.laws.lqr import lqr
-from flypend.laws.named import FACTORIES, law_from_dict, law_names
 from flypend.laws.own import Controller, from_function
 from flypend.laws.repaired import repaired
 from flypend.laws.supervised import supervised

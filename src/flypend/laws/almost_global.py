@@ -34,7 +34,7 @@ from flypend.laws.lag import through_lag
 from flypend.laws.law import Law
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.step import Push, aim, push, share
-from flypend.laws.throw import carrying, derivatives
+from flypend.laws.throw import bob_path, derivatives
 from flypend.model import Rates, State, Vehicle, Wrench, equations_of_motion, lie_derivative
 from flypend.model.momenta import carrying_force
 
@@ -86,7 +86,7 @@ def almost_global_lag(reference: Reference | None = None, **gains: float) -> Law
 def _about(reference: Reference | None, **own: Any) -> Law:
     """Return a law about a `reference`; `own` are the fields in which the two differ."""
     followed = reference or hover()
-    return Law(e3="up", guard=OUTSIDE, reference=followed, path=carrying(followed), certify=certified_set, **own)
+    return Law(e3="up", guard=OUTSIDE, reference=followed, path=bob_path(followed), certify=certified_set, **own)
 
 
 def _prepare_lagged(vehicle: Vehicle, gains: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -96,14 +96,14 @@ def spin_of(state: State, vehicle: Vehicle, authority: Scalar, turn_rate: Scalar
     return Spin(calm, thrust, acceleration, calm * turn_rate + (1 - calm) * led)
 
 
-def braking(state: State, vehicle: Vehicle) -> Vector:
+def braking_force(state: State, vehicle: Vehicle) -> Vector:
     """Return the force (3, 1) on a vehicle with a hanging rod that brakes its motion, N."""
     v = state.x_dot / ca.sqrt(vehicle.g * vehicle.l)
     level = -LEVEL * soft(v[:2], 1)
     return vehicle.weight * (E3 + ca.vertcat(level, ca.fmin(ca.fmax(-v[2], -CLIMB), FALL)))
 
 
-def leading(state: State, vehicle: Vehicle, v_d: Numbers, share: Scalar) -> Vector:
+def gyroscopic_lead(state: State, vehicle: Vehicle, v_d: Numbers, share: Scalar) -> Vector:
     """Return `share` of the gyroscopic moment (3, 1), N m, of an axis that moves at `v_d` (3, 1), 1/s, body frame."""
     demanded = cross(E3, v_d)
     moving = replace(state, omega=ca.vertcat(demanded[:2], state.omega[2]))

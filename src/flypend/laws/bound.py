@@ -16,7 +16,7 @@ from flypend import errors
 from flypend.geometry import Numbers, Scalar, Vector
 from flypend.laws.gain import Gain, Tunable, is_number
 from flypend.laws.guarantee import Guarantee, list_unmodelled
-from flypend.laws.located import LawError, Located, beginning, check_finite, innermost, is_own, wrench_of
+from flypend.laws.law_error import LawError, Located, check_finite, innermost, is_own, location, wrench_of
 from flypend.laws.references import Path, Reference
 from flypend.model import State, Vehicle, Wrench
 from flypend.model.allocation import allocate
@@ -268,12 +268,12 @@ class BoundLaw(Feedback):
             wrench = Wrench(forced[0], forced[1:])
         return replace(control, wrench=wrench) if isinstance(control, Control) else Control(wrench=wrench)
 
-    def tried(self) -> BoundLaw:
+    def try_out(self) -> BoundLaw:
         """Return the law itself. Raises LawError if its equations fail, or return no finite wrench in random states."""
         t, packed, w = ca.SX.sym("t"), ca.SX.sym("s", SIZE), ca.SX.sym("w", 4)
         acting = Wrench(w[0], w[1:]) if self.uses_wrench else None
         control = self.evaluate(t, State.symbolic(packed), self.vehicle, acting=acting)
-        where = beginning(innermost(self.control))
+        where = location(innermost(self.control))
         for name, value in (*control.lyapunov.items(), *control.signals.items()):
             shape = getattr(value, "shape", ())
             if shape not in ((), (1,), (1, 1)):

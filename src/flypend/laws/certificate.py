@@ -474,7 +474,7 @@ def check(certificate: Any) -> str:
             return "c must be positive, and w not negative"
         with np.errstate(all="ignore"):  # no comparison holds for what is not a number
             answer = evaluate_program(certificate, c)
-            return outside(certificate, ranges_of(certificate, c, w, answer)) or touching(certificate, lean(answer))
+            return outside(certificate, ranges_of(certificate, c, w, answer)) or name_touch(certificate, lean(answer))
     except NotProvedError as reason:
         return str(reason)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as broken:
@@ -498,7 +498,7 @@ def lean(answer: Answer) -> float:
     return 2 * math.asin(math.sqrt((1 - least) / 2)) * UP if least > -1 else math.pi
 
 
-def touching(certificate: Any, theta: float) -> str:
+def name_touch(certificate: Any, theta: float) -> str:
     """Return what the rod may touch, in one line; empty if it is known to touch nothing, or there is no body.
 
     θ, rad, bounds the angle between rod and axis. A point at the distance r from the axis and the height h is at least

@@ -205,7 +205,7 @@ def _share(found: dict[str, Any], c: float) -> float:
         return math.inf
     ranges = checker.ranges_of(found, c, found["w"], answer)
     share = _largest(found, ranges)
-    refused = checker.outside(found, ranges) or checker.touching(found, checker.lean(answer))
+    refused = checker.outside(found, ranges) or checker.name_touch(found, checker.lean(answer))
     return max(1.0 + 1e-9, share) if refused else share
 
 

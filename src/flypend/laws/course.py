@@ -56,7 +56,7 @@ class Motion(NamedTuple):
     force: Vector
     z: Vector
 
-    def compared(self, time: Scalar, vehicle: Vehicle) -> Course:
+    def coast(self, time: Scalar, vehicle: Vehicle) -> Course:
         """Return what a rod is compared with that has coasted for `time`, s: this one after coasting as long.
 
         Pivot and force are those of now. So the loops see no error along this motion, although its rod does not coast.
@@ -91,12 +91,12 @@ def motion(p: Sequence[Vector], vehicle: Vehicle) -> tuple[Motion, Motion]:
     return Motion(p[0], p[1], p[3], y, y_1, size, force, z), Motion(p[1], p[2], p[4], y_1, y_2, size_1, force_1, z_1)
 
 
-def along(value: Numbers, rates: Motion) -> Numbers:
+def rate_along(value: Numbers, rates: Motion) -> Numbers:
     """Return the rate of the expression `value` of `HELD`, whose rates are given."""
     return ca.jtimes(value, ca.vertcat(*HELD), ca.vertcat(*rates))
 
 
-def resting(p: Sequence[Vector]) -> Course:
+def at_rest(p: Sequence[Vector]) -> Course:
     """Return what a rod is compared with, however long it has coasted, if the bob's acceleration is constant."""
     place, velocity, acceleration, jerk = p[:4]
     return Course(place, velocity, acceleration, jerk, E3, 0.0)

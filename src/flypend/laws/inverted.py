@@ -22,9 +22,9 @@ import casadi as ca
 
 from flypend import errors
 from flypend.geometry import E1, E3, Scalar, Vector, apply, cross, dot, norm, scale, smooth_norm, tangent_part
-from flypend.laws.axis import DAMPING, axis_moment, braking, leading, spin_of
+from flypend.laws.axis import DAMPING, axis_moment, braking_force, gyroscopic_lead, spin_of
 from flypend.laws.bound import Control, computer_of
-from flypend.laws.course import DERIVATIVES, HELD, Course, along, motion, resting
+from flypend.laws.course import DERIVATIVES, HELD, Course, at_rest, motion, rate_along
 from flypend.laws.gain import document_gains
 from flypend.laws.inverted_gains import GAINS, angular_authority, calm, go_together, scales
 from flypend.laws.law import Law
@@ -37,7 +37,7 @@ from flypend.laws.throw import (
     Demand,
     Pose,
     Rod,
-    carrying,
+    bob_path,
     coast,
     demand,
     derivatives,
@@ -77,7 +77,7 @@ def inverted(reference: Reference | None = None, **gains: float | str) -> Law:
     followed = reference or hover()
     return Law(
         name="inverted", e3="up", gains=GAINS, given=gains, control=inverted_control, computer=computer_of,
-        uses_forces=True, reference=followed, path=carrying(followed), check=go_together, prepare=_prepare, calm=calm,
+        uses_forces=True, reference=followed, path=bob_path(followed), check=go_together, prepare=_prepare, calm=calm,
     )  # fmt: skip
 
 
@@ -173,7 +173,7 @@ def _cascade(
     rod = Rod(state.y, state.y_dot)
     times = k.coast_time, (1 - k.pump_share) * k.coast_time
     ahead, nearer = (coast(rod, time) for time in times)
-    path_ahead, path_nearer = (HELD.compared(time, vehicle) if ideal else resting(p) for time in times)
+    path_ahead, path_nearer = (HELD.coast(time, vehicle) if ideal else at_rest(p) for time in times)
     low, steering, height = low_rod(ahead, state.z, path_ahead.up, k), FREE, state.x[2] - x_ref[2]
     if k.mounting.passage is not None:
         caught = force(ahead, path_ahead, Pose(0, height, E1, 1))
@@ -183,7 +183,7 @@ def _cascade(
     clear = ca.SX.sym("clear")
     authority = angular_authority(vehicle)
     spin = spin_of(state, vehicle, authority, TURN * ca.sqrt(authority), k.mounting.rotor_lag)
-    calm, brake = spin.calm, (1 - spin.calm) * braking(state, vehicle)
+    calm, brake = spin.calm, (1 - spin.calm) * braking_force(state, vehicle)
     pose = Pose(low, height, steering.aside, clear)
     present = force(nearer, path_nearer, pose._replace(low=low_rod(nearer, state.z, path_nearer.up, k)))
     f = ca.fmin(ca.fmax(dot(calm * present + brake, state.z), 0), spin.thrust * largest_thrust(vehicle))
@@ -195,7 +195,7 @@ def _cascade(
 
     def rate(wanted: Vector) -> Vector:
         found = lie_derivative(wanted, state, rates, t)
-        return found + along(wanted, ideal[1]) if ideal else found
+        return found + rate_along(wanted, ideal[1]) if ideal else found
 
     if k.form == "light":
         # Differentiate with the demand's own rate held constant: its direction turns steadily, ω̇_d = 0.
@@ -235,7 +235,7 @@ def _cascade(
     yaw = steering.yaw - k.yaw_damping * state.omega[2]
     turned = -calm * k.mounting.lag_left * state.omega[2]
     moment = axis_moment(state, vehicle, u_z, yaw, turned=turned, compensated=calm)
-    moment = moment + leading(state, vehicle, pull / damping, 1 - calm)
+    moment = moment + gyroscopic_lead(state, vehicle, pull / damping, 1 - calm)
     if ideal:
         f, moment, z_d = ca.substitute([f, moment, z_d], list(HELD), list(ideal[0]))
     signals = {"rod_error": norm(state.y - y_ref), "axis_error": norm(E3 - z_d)}

@@ -101,10 +101,10 @@ def _lead(vehicle: Vehicle) -> float:
 LEAD = Gain("lead", _lead, "", "A law that does not know the lag commands w + lead (w_0 − w)", Bounds(low=1.0))
 
 
-def leading(law: Law) -> Law:
+def lead_law(law: Law) -> Law:
     """Return `law`, which does not know the lag, with a lead in continuous time (`lead_wrench`), its only gain."""
     return Law(
-        name=law.name, e3=law.e3, control=_leading, gains=(LEAD,), uses_forces=law.uses_forces, uses_wrench=True,
+        name=law.name, e3=law.e3, control=_led_control, gains=(LEAD,), uses_forces=law.uses_forces, uses_wrench=True,
         reference=law.reference, prepare=lambda vehicle, _: {"law": law.bind(vehicle)},
     )  # fmt: skip
 
@@ -116,7 +116,7 @@ def lead_wrench(wanted: Wrench, acting: Wrench, lead: Scalar) -> Wrench:
     )
 
 
-def _leading(
+def _led_control(
     t: Scalar, state: State, vehicle: Vehicle, k: SimpleNamespace, *forces: tuple[Vector, Vector], acting: Wrench
 ) -> Wrench:
     """The command of the law `k.law`, led past the wrench that is `acting`."""

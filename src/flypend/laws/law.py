@@ -11,7 +11,7 @@ from flypend import errors
 from flypend.building import builds
 from flypend.laws.bound import BoundLaw, Computer, Feedback, Guard
 from flypend.laws.gain import Gain, check_gains, table
-from flypend.laws.located import is_own
+from flypend.laws.law_error import is_own
 from flypend.laws.references import check_reference
 from flypend.model import Vehicle
 
@@ -148,7 +148,7 @@ class Law(Feedback):
             computer=self.computer({**prepared, **gains}) if callable(self.computer) else self.computer,
             calmer=self._calmer(vehicle),
         )
-        return bound.tried() if is_own(self.control) else bound
+        return bound.try_out() if is_own(self.control) else bound
 
     def _calmer(self, vehicle: Vehicle) -> Callable[[float], BoundLaw] | None:
         """Return share → the law bound to `vehicle` with gains as calm; None if there are none, or all are given."""

@@ -103,7 +103,7 @@ class Policy:
         hidden = activation(_layer(self.W_2, self.b_2, hidden))
         return ca.mtimes(_constant(self.D), phi) + ca.mtimes(_constant(self.W_3), hidden)
 
-    def asked(self, phi: Numbers) -> Numbers:
+    def evaluate(self, phi: Numbers) -> Numbers:
         """Return N(φ) − N(φ₀) (n, 1) for `phi` (18, 1), in CasADi."""
         at_hover = ca.DM(ca.evalf(ca.densify(self.network(ca.SX(ca.DM(HOVER))))))
         return self.network(phi) - at_hover
@@ -243,6 +243,6 @@ def learned_control(
     low, high = vehicle.rotor_limits
     level = (vehicle.weight - forces[0][2] - forces[1][2]) / len(vehicle.rotor_spins)
     hover_share = ca.fmin(ca.fmax((level - low) / (high - low), LEAST_SHARE), 1 - LEAST_SHARE)
-    rotors = low + (high - low) * shares(k.network.asked(phi), hover_share)
+    rotors = low + (high - low) * shares(k.network.evaluate(phi), hover_share)
     wrench = ca.mtimes(vehicle.mixing(), rotors)
     return Control(wrench=Wrench(wrench[0], wrench[1:]), signals={"position_error": norm(x)})

@@ -27,7 +27,7 @@ from flypend.laws.law import Law
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, open_loop
 from flypend.laws.references import Path, Reference, hover
 from flypend.laws.sphere import ANTIPODE_FLOOR
-from flypend.laws.throw import carrying, derivatives
+from flypend.laws.throw import bob_path, derivatives
 from flypend.model import State, Vehicle, Wrench
 
 Matrix = NDArray[np.float64]
@@ -69,7 +69,7 @@ def lqr(reference: Reference | None = None, **gains: float) -> Law:
     """
     followed = reference or hover()
     return Law(
-        name="lqr", e3="up", gains=GAINS, given=gains, control=lqr_control, reference=followed, path=carrying(followed),
+        name="lqr", e3="up", gains=GAINS, given=gains, control=lqr_control, reference=followed, path=bob_path(followed),
         prepare=lambda vehicle, given: {"K": gain_matrix(vehicle, given)},
     )  # fmt: skip
 
@@ -89,7 +89,7 @@ def by_matrix(K: Numbers) -> Law:
         return lqr_control(t, state, vehicle, SimpleNamespace(K=matrix), path=path)
 
     gains = [Gain(name, value, doc="Entry of the gain matrix, SI units") for name, value in entries(K).items()]
-    return Law(name="lqr", e3="up", gains=gains, control=control, reference=followed, path=carrying(followed))
+    return Law(name="lqr", e3="up", gains=gains, control=control, reference=followed, path=bob_path(followed))
 
 
 def entries(K: Numbers) -> dict[str, float]:

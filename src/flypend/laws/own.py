@@ -28,7 +28,7 @@ from flypend.geometry import Numbers
 from flypend.laws.bound import Computer
 from flypend.laws.gain import Gain, Tunable, check_gains, is_number, table
 from flypend.laws.law import Law
-from flypend.laws.located import LawError, Located, beginning, check_finite, file_of, innermost, is_own, wrench_of
+from flypend.laws.law_error import LawError, Located, check_finite, file_of, innermost, is_own, location, wrench_of
 from flypend.laws.references import Reference, check_reference
 from flypend.model import State, Vehicle, Wrench, vehicle
 from flypend.model.state import SIZE, E3Direction, convert_packed
@@ -301,7 +301,7 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
     except LawError as error:
         failure = error
     except Exception as error:  # the result is not an expression
-        failure = LawError(beginning(call.function), call.name, f"its wrench is not made of symbols: {error}")
+        failure = LawError(location(call.function), call.name, f"its wrench is not made of symbols: {error}")
     try:
         numbers = [_numbers(call(0.0, state, machine, **gains), call) for state in states]
     except InputError as error:
@@ -328,5 +328,5 @@ def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:
     try:
         parts = [np.asarray(part, dtype=float).ravel() for part in (wrench.thrust, wrench.moment)]
     except (TypeError, ValueError, RuntimeError):
-        raise LawError(beginning(call.function), call.name, "its wrench is not made of numbers") from None
+        raise LawError(location(call.function), call.name, "its wrench is not made of numbers") from None
     return np.concatenate(parts)

@@ -68,7 +68,7 @@ class Demand(NamedTuple):
     omega_d: Vector
 
 
-def carrying(reference: Reference) -> Path:
+def bob_path(reference: Reference) -> Path:
     """Return the path of the balanced bob with the pivot at `reference`(t).
 
     The rod points along g e₃ − F_b/m + p̈ with p = x_ref + l y. Two fixed-point iterations solve for it; each reduces

@@ -22,8 +22,8 @@ from flypend.geometry import Numbers, Scalar, norm
 from flypend.laws.bound import Control, computer_of
 from flypend.laws.gain import DELAY_REACH, NOT_NEGATIVE, Bounds, Gain, document_gains, table
 from flypend.laws.law import Law
+from flypend.laws.policy import ATTITUDES, moment_action, observe_state, rotor_action, thrust_action
 from flypend.laws.references import Reference, hover
-from flypend.laws.seen import ATTITUDES, moment_action, observe_state, rotor_action, thrust_action
 from flypend.laws.throw import derivatives
 from flypend.model import State, Vehicle, Wrench
 

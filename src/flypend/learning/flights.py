@@ -78,7 +78,7 @@ def programs(rotors: int) -> tuple[ca.Function, ca.Function, ca.Function]:
     command = ca.fmin(ca.fmax(model + lead * (asked - model), low), high)
     before, forces = hold(forces, last, late)
     since, forces = hold(forces, command, rest)
-    moment = join_ramps(before, since, late[0], rest[0]).mixed(machine.mixing())
+    moment = join_ramps(before, since, late[0], rest[0]).mix(machine.mixing())
     moved = cascade_step(state[:SIZE], moment, machine.outside, late[0] + rest[0], machine.vehicle)
     after = ca.vertcat(moved, forces, command, hold(model, command, modelled)[1])
     outputs, inputs = [after, observe(after, flight, error), costs(after, machine)], [state, v, machine.numbers, flight]
@@ -147,25 +147,25 @@ class Flights:
 
     def enter(self, flown: Flown, machines: Machines, errors: Any = None) -> None:
         """Let the machines `flown`, of `machines`, fly from now on, seen with `errors` (steps + 1, 18, count)."""
-        self._numbers[:], self._of_flight[:] = self.laned(flown.numbers.T), self.laned(flown.of_flight.T)
+        self._numbers[:], self._of_flight[:] = self.to_lanes(flown.numbers.T), self.to_lanes(flown.of_flight.T)
         for t, share in enumerate(machines.shares(flown.hover)):
-            self._shares[t] = self.laned(share[None])
+            self._shares[t] = self.to_lanes(share[None])
         for t in range(len(self._errors)):
-            self._errors[t] = 0.0 if errors is None else self.laned(errors[t])
+            self._errors[t] = 0.0 if errors is None else self.to_lanes(errors[t])
 
     def fly(self, weights: Weights, starts: Any) -> None:
         """Fly from `starts` (count, 24 + n), own units, under the network with these `weights`."""
 
         def ask(t: int) -> None:
             v, self._kept[t] = forward(weights, self.phi[t])
-            self.asked[t] = self.laned(v)
+            self.asked[t] = self.to_lanes(v)
 
         self.fly_by(ask, starts)
 
     def fly_by(self, ask: Callable[[int], None], starts: Any) -> None:
         """Fly from `starts`; `ask(t)` fills `asked[t]` from `states[t]` or `phi[t]`."""
         rotors = starts[:, SIZE:]
-        self.states[0] = self.laned(np.hstack([starts, rotors, rotors]).T)
+        self.states[0] = self.to_lanes(np.hstack([starts, rotors, rotors]).T)
         self.kernels.see(self.groups, self.states[0], self._of_flight, self._errors[0], self._seen)
         self.phi[0, :, :-1] = flat(self._seen)
         for t in range(self.course.steps):
@@ -177,11 +177,11 @@ class Flights:
             )  # fmt: skip
             self.phi[t + 1, :, :-1] = flat(self._seen)
 
-    def laned(self, rows: Any) -> Any:
+    def to_lanes(self, rows: Any) -> Any:
         """Return `rows` (k, count) as (groups, k, lanes)."""
         return rows.reshape(-1, self.groups, WIDTH).transpose(1, 0, 2)
 
-    def judged(self) -> tuple[Costs, Any]:
+    def judge(self) -> tuple[Costs, Any]:
         """Return the costs of what has been flown, and the gradient of their sum (steps, groups, 3, lanes)."""
         squared, far = self.costs[:, :, 0] + FLOOR, self.costs[:, :, 1]
         excursion, to_squared = largest(squared, 0.5)
@@ -207,7 +207,7 @@ class Flights:
                 self._errors[t + 1], to_state, to_phi, to_costs[t], before, to_v,
             )  # fmt: skip
             to_state, before = before, to_state
-            to_phi[:] = self.laned(backward(weights, self.phi[t], self._kept[t], flat(to_v), total))
+            to_phi[:] = self.to_lanes(backward(weights, self.phi[t], self._kept[t], flat(to_v), total))
         return total
 
 

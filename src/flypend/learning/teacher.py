@@ -41,7 +41,7 @@ class Teacher:
         flights = self._flights
         flights.fly_by(lambda t: self._ask(flights.groups, flights.states[t], flights.asked[t]), starts)
 
-    def labelled(self) -> tuple[Any, Any]:
+    def label(self) -> tuple[Any, Any]:
         """Return features (18, k) of the states just flown, and what the law would have asked for there (n, k)."""
         flights, labels = self._flights, []
         for state in flights.states[:-1]:
@@ -67,7 +67,7 @@ class Imitation:
             self._flights.fly(weights, starts)
         else:
             self._teacher.fly(starts)
-        self._known = [*self._known[1 - RECENT :], self._teacher.labelled()]
+        self._known = [*self._known[1 - RECENT :], self._teacher.label()]
         total = 0.0
         for _ in range(self._steps):
             signals.poll()

@@ -15,7 +15,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
-from flypend.flight.tasks import touching
+from flypend.flight.tasks import touches
 from flypend.laws.learned import MOST_WEIGHTS, Policy
 from flypend.learning.course import Course, Machines
 from flypend.learning.flights import Costs, Flights
@@ -25,7 +25,7 @@ from flypend.model import State, Vehicle
 from flypend.planning.dynamics import Units
 from flypend.plants.bands import check_bands
 from flypend.plants.sensors import Sensors
-from flypend.signals.waiting import result_of, threads
+from flypend.signals.polling import result_of, threads
 
 AHEAD = 0.3  # s: what touches does so soon, or can be helped later
 AMONG = 4  # starts flown for each that is kept
@@ -79,7 +79,7 @@ class Training:
             raise InputError("hidden", f"two layers with at most {MOST_WEIGHTS} weights", repr(self.hidden))
 
     @property
-    def told(self) -> dict[str, Any]:
+    def data(self) -> dict[str, Any]:
         """All of it, for files."""
         course = {name: value for name, value in vars(self.course).items() if name != "vehicle"}
         course["sensors"] = self.course.sensors and self.course.sensors.to_dict()
@@ -149,8 +149,8 @@ class Learner:
             rng = np.random.default_rng([training.seed, 1, i])
             with threadpool_limits(1, "blas"):
                 begin = starts(training.course.vehicle, rng, flights.count)
-                imitation.round(self.weights, begin, rng, RATE * falling(i, training.rounds))
-            self._add(flights.judged()[0], 0, i + 1, told)
+                imitation.round(self.weights, begin, rng, RATE * rate_share(i, training.rounds))
+            self._add(flights.judge()[0], 0, i + 1, told)
 
     def descend(self, told: Callable[[Entry], Any] = lambda _: None) -> None:
         """Make the next update by descent; `told` is called with every new point of the curve."""
@@ -160,11 +160,11 @@ class Learner:
         for part in self._parts:
             self._enter(part, rng)
         with threadpool_limits(1, "blas"), threads(PARTS) as pool:
-            calls = [pool.submit(self._flown, *part) for part in zip(self._parts, begin, strict=True)]
+            calls = [pool.submit(self._fly, *part) for part in zip(self._parts, begin, strict=True)]
             flown = [result_of(call) for call in calls]
         gradient = {name: np.sum([part[1][name] for part in flown], axis=0) / training.batch for name in self.weights}
         warm = min(1.0, (i + 1) / 20)
-        self.adam.move(self.weights, gradient, training.rate * warm * falling(i, training.updates))
+        self.adam.move(self.weights, gradient, training.rate * warm * rate_share(i, training.updates))
         self.done = i + 1
         self._since += [part[0] for part in flown]
         if self.done % EVERY == 0 or self.done == training.updates:
@@ -178,9 +178,9 @@ class Learner:
             errors = machines.errors(rng, flights.count) if course.sensors is not None else None
             flights.enter(machines.choose(rng, flights.count), machines, errors)
 
-    def _flown(self, flights: Flights, starts: Any) -> tuple[Costs, Weights]:
+    def _fly(self, flights: Flights, starts: Any) -> tuple[Costs, Weights]:
         flights.fly(self.weights, starts)
-        costs, to_costs = flights.judged()
+        costs, to_costs = flights.judge()
         return costs, flights.gradient(self.weights, to_costs)
 
     def _starts(self, rng: np.random.Generator) -> Any:
@@ -239,10 +239,10 @@ class Learner:
 
 
 def _report(training: Training) -> str:
-    return json.dumps(training.told, default=list, sort_keys=True)
+    return json.dumps(training.data, default=list, sort_keys=True)
 
 
-def falling(i: int, count: int) -> float:
+def rate_share(i: int, count: int) -> float:
     """Return the share of the rate at step `i` of `count`: from 1 to a fiftieth, faster at first."""
     return 0.02 + 0.98 * (1 - i / max(count, 1)) ** 2
 
@@ -250,7 +250,7 @@ def falling(i: int, count: int) -> float:
 def starts(vehicle: Vehicle, rng: np.random.Generator, count: int) -> Any:
     """Return random starts (count, 24 + n) in own units, with free rods and rotors at their least."""
     n, found = len(vehicle.rotor_spins), State.random(rng, count)
-    while not np.all(free := ~touching(vehicle, found)):
+    while not np.all(free := ~touches(vehicle, found)):
         found = State.trusted(np.concatenate([found.packed()[free], State.random(rng, count).packed()])[:count])
     forces = np.full((count, n), vehicle.rotor_limits[0])
     return np.concatenate([found.packed(), forces], axis=1) / Units.of(vehicle).states(n)

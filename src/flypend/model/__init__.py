@@ -16,6 +16,7 @@ f ≤ 0 carries the vehicle, y = e₃ is the hanging pose, and the paper's momen
 and body frame by π about e₁ converts between the two (`State.flipped`, `Wrench.flipped`).
 """
 
+from flypend.model.by_name import vehicle
 from flypend.model.dynamics import (
     Rates,
     bob_position,
@@ -28,7 +29,6 @@ from flypend.model.dynamics import (
     total_energy,
 )
 from flypend.model.motion import Disturbance, disturbed_motion, equations_of_motion
-from flypend.model.shipped import vehicle
 from flypend.model.state import State, Wrench
 from flypend.model.vehicle import Vehicle
 

@@ -70,7 +70,7 @@ class Air:
         values = {entry.name: getattr(self, entry.name) for entry in fields(self)}
         return values | {"body_drag": list(self.body_drag)}
 
-    def known(self) -> tuple[AirEffect, ...]:
+    def active(self) -> tuple[AirEffect, ...]:
         """Return the effects whose coefficients are not zero."""
         return tuple(name for name in AIR if np.any(getattr(self, name)))
 

@@ -40,7 +40,7 @@ def rod_inertia_factor(heavier: float, longer: float) -> float:
     return heavier * longer**2
 
 
-def stretched(vehicle: Any, heavier: float, longer: float) -> dict[str, Any]:
+def stretch(vehicle: Any, heavier: float, longer: float) -> dict[str, Any]:
     """Return the fields of the rod of `vehicle` with mass and lengths times these factors; it keeps its shape."""
     turned = rod_inertia_factor(heavier, longer)
     return {

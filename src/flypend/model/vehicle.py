@@ -332,7 +332,7 @@ class Vehicle:
     def from_dict(cls, values: dict[str, Any], field: str = "vehicle") -> Self:
         """Build a vehicle from the parsed TOML `values`. Raises InputError with field names prefixed by `field`."""
         errors.only_known(field, values, _FIELDS)
-        for name in _needed(cls):
+        for name in _required(cls):
             if name not in values:
                 raise InputError(f"{field}.{name}", errors.documentation_of(cls, name), "nothing")
         try:
@@ -401,7 +401,7 @@ _NUMBERS: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
-def _needed(kind: type[Any]) -> list[str]:
+def _required(kind: type[Any]) -> list[str]:
     """Return the names of fields of a record that have no default."""
     return [entry.name for entry in fields(kind) if entry.default is MISSING]
 
@@ -416,7 +416,7 @@ def _record(kind: type[Any], field: str, value: Any, called: str) -> Any:
     if not isinstance(value, Mapping):
         raise InputError(field, f"{called}, or its fields as a dict", repr(value))
     errors.only_known(field, value, [entry.name for entry in fields(kind)])
-    for name in (needed := _needed(kind)):
+    for name in (needed := _required(kind)):
         if name not in value:
             raise InputError(f"{field}.{name}", f"{', '.join(needed)}, lengths in m", f"no {name}")
     return kind(**value)

@@ -15,7 +15,7 @@ from flypend import errors, signals
 from flypend.files.whole import whole_file
 from flypend.flight.trajectory import Trajectory
 from flypend.pictures.frames import Frame, stage
-from flypend.signals import waiting
+from flypend.signals import polling
 
 Progress = Callable[[int, int], None]
 
@@ -134,7 +134,7 @@ def _frames_in(path: Path) -> int:
 
     command = [imageio_ffmpeg.get_ffmpeg_exe(), "-v", "quiet", "-i", str(path), "-c", "copy"]
     command += ["-progress", "-", "-f", "null", "-"]
-    report = waiting.run(command, stdin=subprocess.DEVNULL)
+    report = polling.run(command, stdin=subprocess.DEVNULL)
     counts = re.findall(rb"^frame=\s*(\d+)", report.stdout, flags=re.MULTILINE)
     return int(counts[-1]) if counts and report.returncode == 0 else 0
 

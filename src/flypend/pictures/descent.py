@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from flypend.flight.trajectory import Trajectory
-from flypend.laws.named import THEOREM_1
+from flypend.laws.by_name import THEOREM_1
 from flypend.palette import BLUE, GREEN, GREY, INK, ORANGE, PINK, RED
 from flypend.paper.descent import Basin
 from flypend.pictures.style import LABEL, SMALL, new_figure, rule, style_named

@@ -15,7 +15,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.flight.trajectory import Trajectory
-from flypend.laws.named import FACTORIES
+from flypend.laws.by_name import FACTORIES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

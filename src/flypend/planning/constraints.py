@@ -259,7 +259,7 @@ def broken(packed: Array, rotor_forces: Array, vehicle: Vehicle, kept: Constrain
     for point in kept.points:
         if (off := float(np.min(norm(state.x - point)))) > NEAR * vehicle.l:
             return f"a waypoint is missed by {off:.3g} m"
-    return _own_broken(packed, rotor_forces, kept) or _touching(state, rotor_forces, vehicle)
+    return _own_broken(packed, rotor_forces, kept) or _touched_part(state, rotor_forces, vehicle)
 
 
 def _own_broken(packed: Array, rotor_forces: Array, kept: Constraints) -> str:
@@ -273,11 +273,11 @@ def _own_broken(packed: Array, rotor_forces: Array, kept: Constraints) -> str:
 
 def begins_touching(packed: Array, rotor_forces: Array, vehicle: Vehicle) -> str:
     """Return what the rod touches at the first of the states `packed` (n, 24), from where no plan leads; or ""."""
-    found = _touching(State.trusted(packed[:1]), rotor_forces[:1], vehicle)
+    found = _touched_part(State.trusted(packed[:1]), rotor_forces[:1], vehicle)
     return found and f"{found} at the start"
 
 
-def _touching(state: State, rotor_forces: Array, vehicle: Vehicle) -> str:
+def _touched_part(state: State, rotor_forces: Array, vehicle: Vehicle) -> str:
     """Return what the rod of `vehicle` touches most in a batch of states with `rotor_forces` (n, k); or ""."""
     if vehicle.mount == "gimbal":
         return ""

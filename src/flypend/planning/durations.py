@@ -18,10 +18,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from flypend.planning.multistart import FINAL, FINAL_IN_TIME, SOFT_LAST, Found, Guess, Job, Watch, agreeing
+from flypend.planning.multistart import FINAL, FINAL_IN_TIME, SOFT_LAST, Found, Guess, Job, Watch, count_agreeing
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.result import Plan
-from flypend.planning.search import Tried, finished, guesses_of, improved, together
+from flypend.planning.search import Tried, finish, guesses_of, improve, together
 from flypend.planning.solver import Settings
 
 HORIZONS = (12.5, 20.0, 32.0, 48.0)  # √(l/g), tried in turn: 3 s on hehn2011
@@ -62,48 +62,48 @@ class Search:
     def cold(self, horizon: float) -> Tried:
         """Try all forms of the request in turn, each from all styles of guesses."""
         for asked in self._attempts:
-            tried = self._judged(asked, horizon, together(asked, horizon, self._deadline))
+            tried = self._judge(asked, horizon, together(asked, horizon, self._deadline))
             if tried or self.over:
                 break
         return tried
 
     def warm(self, tried: Tried, horizon: float, guess: Guess, watch: Watch | None = None) -> Tried:
         """Try another `horizon`, from a `guess` that comes of what was `tried`."""
-        return self._judged(tried.asked, horizon, improved(tried.job, horizon, guess, self._deadline, watch))
+        return self._judge(tried.asked, horizon, improve(tried.job, horizon, guess, self._deadline, watch))
 
     def each(self, horizon: float, stages: int) -> list[Tried]:
         """Try the last form of the request from every guess that there is, each by itself, in so many `stages`."""
         asked, tries = self._attempts[-1], []
         for style, guess in enumerate(guesses_of(asked, horizon, stages)):
             job = Job(asked, style)
-            found = improved(job, horizon, guess, self._deadline, Watch([job], [0], TRIES))
-            tries.append(self._judged(asked, horizon, found))
+            found = improve(job, horizon, guess, self._deadline, Watch([job], [0], TRIES))
+            tries.append(self._judge(asked, horizon, found))
         return tries
 
-    def finished(self, tried: Tried, settings: Settings = FINAL) -> Tried:
+    def finish(self, tried: Tried, settings: Settings = FINAL) -> Tried:
         """Solve what was `tried` to the end; as it is if nothing better comes of that, or its time is over."""
         if not tried or self.over:
             return tried
         forms = [tried.asked, *(self._attempts[-1:] if self._attempts[-1] is not tried.asked else [])]
         for asked in forms:  # what kept a constraint by chance may not do so to the end
             job = Job(asked, tried.found.style)
-            found = finished(job, tried.horizon, tried.found, self._deadline, settings)
-            if (final := tried.ended(self._judged(asked, tried.horizon, found))) is not tried:
+            found = finish(job, tried.horizon, tried.found, self._deadline, settings)
+            if (final := tried.better_of(self._judge(asked, tried.horizon, found))) is not tried:
                 return final
         return tried
 
-    def told(self, best: Tried, costs: Sequence[float]) -> Plan:
+    def make_plan(self, best: Tried, costs: Sequence[float]) -> Plan:
         """Return the plan of the `best`, with what the search took, and how many `costs` agree with its."""
         plan = replace(best.plan, solve_time=self._spent, guesses=len(costs))
         if best:
-            plan = replace(plan, agreeing=max(1, agreeing(costs)))
+            plan = replace(plan, agreeing=max(1, count_agreeing(costs)))
         if not self.over:
             return plan
         if best:
             return replace(plan, status="feasible", reason=STOPPED)
         return replace(plan, reason=f"{plan.reason} within the time limit")
 
-    def _judged(self, asked: Request, horizon: float, found: Found) -> Tried:
+    def _judge(self, asked: Request, horizon: float, found: Found) -> Tried:
         self._spent += found.spent
         return Tried.of(asked, found, horizon)
 
@@ -130,14 +130,14 @@ def in_time(search: Search, horizons: Sequence[float], least: float) -> Plan:
     for horizon in horizons:
         cold = search.cold(horizon)
         costs += cold.found.costs
-        tries = [cold, search.warm(best, horizon, _waiting(best, horizon))] if best else [cold]
+        tries = [cold, search.warm(best, horizon, _append_hover(best, horizon))] if best else [cold]
         latest = min(filter(None, tries), key=lambda each: each.found.cost, default=cold)
         if not best or (latest and latest.found.cost <= (1 + EQUAL) * best.found.cost):
             best = latest
         if search.over or (best and horizon >= least):
             break
     assert best is not None
-    return search.told(search.finished(best), costs)
+    return search.make_plan(search.finish(best), costs)
 
 
 def shortest(search: Search, horizons: Sequence[float]) -> Plan:
@@ -147,7 +147,7 @@ def shortest(search: Search, horizons: Sequence[float]) -> Plan:
         if first or search.over:
             break
     if not first:
-        return search.told(first, first.found.costs)
+        return search.make_plan(first, first.found.costs)
     failures, horizon = 0, first.horizon
     while failures < FAILURES:
         tried = search.cold(horizon := COARSE * horizon)
@@ -157,13 +157,13 @@ def shortest(search: Search, horizons: Sequence[float]) -> Plan:
     field = [best, *filter(None, tries)]
     reached = [np.inf] * (len(tries) + 1)
     for step, behind in STEPS.items():
-        field = sorted((_shortened(search, each, step) for each in field), key=lambda each: each.horizon)
+        field = sorted((_shorten(search, each, step) for each in field), key=lambda each: each.horizon)
         reached[: len(field)] = [each.horizon for each in field]
         field = [each for each in field if each.horizon <= (1 + behind) * field[0].horizon][:MOST]
-    return search.told(search.finished(field[0], FINAL_IN_TIME), reached)
+    return search.make_plan(search.finish(field[0], FINAL_IN_TIME), reached)
 
 
-def _shortened(search: Search, tried: Tried, step: float) -> Tried:
+def _shorten(search: Search, tried: Tried, step: float) -> Tried:
     """Return what was `tried` with a horizon shortened by the share `step`, as often as that works."""
     while True:
         watch = Watch([tried.job], [0], TRIES, SOFT_LAST)
@@ -173,7 +173,7 @@ def _shortened(search: Search, tried: Tried, step: float) -> Tried:
         tried = shorter
 
 
-def _waiting(tried: Tried, horizon: float) -> Guess:
+def _append_hover(tried: Tried, horizon: float) -> Guess:
     """Return what was `tried`, followed by hover until `horizon` (√(l/g))."""
     states, commands = tried.found.states, tried.found.commands
     wait = max(0, round((horizon / tried.horizon - 1) * len(commands)))

@@ -120,7 +120,7 @@ class Units:
     @property
     def of_state(self) -> Array:
         """Units of the entries of a packed state (24,)."""
-        return self._repeated((3, 3, 9, 3, 3, 3))
+        return self._repeat((3, 3, 9, 3, 3, 3))
 
     def states(self, rotors: int) -> Array:
         """Return the units of the entries of a packed state followed by the forces of `rotors` rotors."""
@@ -128,9 +128,9 @@ class Units:
 
     def deviations(self, rotors: int) -> Array:
         """Return the units of the entries of a `feedback.deviation` (18 + n,) of a vehicle with so many `rotors`."""
-        return np.append(self._repeated((3,) * 6), np.full(rotors, self.force))
+        return np.append(self._repeat((3,) * 6), np.full(rotors, self.force))
 
-    def _repeated(self, counts: tuple[int, ...]) -> Array:
+    def _repeat(self, counts: tuple[int, ...]) -> Array:
         """Return the units of position, velocity, attitude, spin, rod and its rate, as often as `counts` say."""
         rate = 1 / self.time
         return np.repeat([self.length, self.length * rate, 1.0, rate, 1.0, rate], counts)
@@ -142,7 +142,7 @@ assert len(Units(1.0, 1.0, 1.0).of_state) == SIZE
 def step_once(state: ca.SX, command: ca.SX, timing: ca.SX, machine: Scaled) -> ca.SX:
     """Return the state (24 + n, 1) after a step of `timing` (see `plants.lag.step_timing`) under `command` (n, 1)."""
     forces, rotors = hold(state[SIZE:], command, timing)
-    moved = cascade_step(state[:SIZE], forces.mixed(machine.mixing()), machine.outside, timing[0], machine.vehicle)
+    moved = cascade_step(state[:SIZE], forces.mix(machine.mixing()), machine.outside, timing[0], machine.vehicle)
     return ca.vertcat(moved, rotors)
 
 
@@ -177,7 +177,7 @@ class Stage:
         at = ca.substitute([gap, A, B], [delta], [ca.SX.zeros(self.coordinates)])
         return ca.densify(at[0]), ca.sparsify(at[1]), ca.sparsify(at[2])
 
-    def linearised(self, *outputs: ca.SX) -> ca.Function:
+    def linearise(self, *outputs: ca.SX) -> ca.Function:
         """Return (before, after, command, timing, vehicle) → `outputs`, made of `derivatives`."""
         inputs = [self.before, self.after, self.command, self.timing, self.machine.numbers]
         return ca.Function("linearised", inputs, ca.cse([*outputs]))

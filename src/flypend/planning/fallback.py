@@ -25,7 +25,7 @@ from flypend.model import State, Vehicle, Wrench
 from flypend.model.mount import margins
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Array
-from flypend.planning.feedback import AS_MODELLED, stepping
+from flypend.planning.feedback import AS_MODELLED, step_program
 from flypend.planning.multistart import Found, work
 from flypend.planning.problem import Request
 from flypend.planning.search import Relay, stages_of
@@ -64,7 +64,7 @@ def evasion(
     begin = np.append(state, rotors)
     times = (wait / STEPS * np.arange(round(STEPS * (1 + BEYOND)) + 1)).tolist()
     held = [Schedule(times, [command] * (len(times) - 1)) for command in commands(vehicle)]
-    paths = [schedule.flown(vehicle, begin, scales, 1) for schedule in held]
+    paths = [schedule.fly(vehicle, begin, scales, 1) for schedule in held]
     schedule, path = max(zip(held, paths, strict=True), key=lambda flown: room(flown[1], vehicle))
     return schedule.commands[0], room(path, vehicle), path[STEPS]
 
@@ -95,14 +95,14 @@ class Schedule(NamedTuple):
         place = bisect_left(self.times, later.times[0] - 1e-9)
         return Schedule([*self.times[:place], *later.times], [*self.commands[:place], *later.commands])
 
-    def flown(
+    def fly(
         self, vehicle: Vehicle, begin: Array, scales: Array = AS_MODELLED, substeps: int = SUBSTEPS
     ) -> Array:  # fmt: skip
         """Return states and rotor forces (substeps · k + 1, 24 + n) from `begin` (24 + n,) to the end.
 
         `scales` (2,) are thrust and moment over those of `vehicle`.
         """
-        step, path = stepping(vehicle), [begin]
+        step, path = step_program(vehicle), [begin]
         for command, h in zip(self.commands, np.diff(self.times) / substeps, strict=True):
             for _ in range(substeps):
                 path.append(step(path[-1][:SIZE], path[-1][SIZE:], command, h, scales=scales))
@@ -159,17 +159,17 @@ class Fallback:
         would come too near to what it may touch; then as `until`. Raises InputError as `ask` does.
         """
         held = Schedule((t, t + first), (np.clip(begin[SIZE:], *self._vehicle.rotor_limits),))
-        path, begun = held.flown(self._vehicle, begin, self.scales), process_time()
+        path, begun = held.fly(self._vehicle, begin, self.scales), process_time()
         asked = ask(t + first, path[-1])
         # Walls, which so few iterations cannot keep, would only choose the way worse.
-        relay = Relay(asked.unconstrained() if asked.kept.loose else asked, horizon, ROUNDS, SOFT)
+        relay = Relay(asked.without_constraints() if asked.kept.loose else asked, horizon, ROUNDS, SOFT)
         found, stage, force = relay.leg(LEGS[0]), stages_of(horizon)[1] * asked.units.time, asked.units.force
         counts = [math.ceil(leg / stage - 1e-9) for leg in legs]
         if stage * sum(counts) > alone:
             counts = []
         now, wait = t + first, first + (stage * sum(counts) if counts else alone)
         sketch = _schedule(found.commands * force, now, t + wait, stage)
-        ahead = sketch.flown(self._vehicle, path[-1], self.scales)
+        ahead = sketch.fly(self._vehicle, path[-1], self.scales)
         late = measured and process_time() - begun > first
         kept = -math.inf if late else self._kept(np.concatenate([path, ahead]))
         if not kept >= self._clearance:
@@ -183,7 +183,7 @@ class Fallback:
             relay.begin_at(passed, ask(now, ahead[0]).start)
             found = relay.leg(iterations)
             sketch = _schedule(found.commands * force, now, t + wait, stage)
-            path = sketch.flown(self._vehicle, ahead[0], self.scales)
+            path = sketch.fly(self._vehicle, ahead[0], self.scales)
             late = measured and process_time() - begun > stage * count
             if not late and self._kept(path) >= min(self._clearance, self._kept(ahead)):
                 flies, ahead = flies.then(sketch), path
@@ -195,7 +195,7 @@ class Fallback:
     def _under_law(self, t: float, begin: Array, duration: float) -> Array:
         """Return states and rotor forces (k, 24 + n) for a `duration` (s) from `t` on under the law."""
         path, passed, period = [begin], 0.0, 1 / self._loop.sampled.rate
-        board, step = SteppedBoard(self._loop, begin[SIZE:]), stepping(self._vehicle)
+        board, step = SteppedBoard(self._loop, begin[SIZE:]), step_program(self._vehicle)
         while passed < duration - 1e-9:
             signals.poll()
             h, here = min(period, duration - passed), path[-1]

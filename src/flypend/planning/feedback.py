@@ -125,7 +125,7 @@ def deviation(rotors: int) -> ca.Function:
     return ca.Function("deviation", [nominal, state], [ca.densify(ca.vertcat(*parts))])
 
 
-def hovering(rotors: int) -> ca.Function:
+def hover_deviation(rotors: int) -> ca.Function:
     """Return the `deviation` (nominal, state) → (18 + n,) from a nominal hover, which has any heading.
 
     The heading is turned away, with the world about the vertical of the pivot, so that gains know the directions that
@@ -155,7 +155,7 @@ class Follower:
 
     def __init__(self, feedback: Feedback, vehicle: Vehicle) -> None:
         self.feedback = feedback
-        (self._deviation, self._hovering), self.stepped = _deviations(len(vehicle.rotor_spins)), stepping(vehicle)
+        (self._deviation, self._hovering), self.stepped = _deviations(len(vehicle.rotor_spins)), step_program(vehicle)
         self._limits, self.scales = vehicle.rotor_limits, AS_MODELLED
 
     def command(self, t: float, state: Array, rotors: Array) -> tuple[Array, Array]:
@@ -177,7 +177,7 @@ class Follower:
 
 
 @built(maxsize=16)
-def stepping(vehicle: Vehicle) -> Any:
+def step_program(vehicle: Vehicle) -> Any:
     """Return (state, rotors, command, duration, forces, scales) → state and rotors (24 + n,) after a step of the plant.
 
     A duration is in s; `forces` (6,), N, are those from outside, and `scales` (2,) those of thrust and moment.
@@ -215,4 +215,4 @@ class _Scaled:
 @built(maxsize=4)
 def _deviations(rotors: int) -> tuple[Any, Any]:
     """Return the deviations from a nominal state, and from hover with any heading."""
-    return as_numpy(deviation(rotors)), as_numpy(hovering(rotors))
+    return as_numpy(deviation(rotors)), as_numpy(hover_deviation(rotors))

@@ -16,7 +16,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.netcdf import Variable
 from flypend.files.schema import Field, check_arrays, check_attributes, check_variables, digest
-from flypend.flight import saved
+from flypend.flight import files
 from flypend.model import Vehicle
 from flypend.model.state import SHAPES, SIZE
 from flypend.planning.window import Window
@@ -26,7 +26,7 @@ Status = Literal["converged", "feasible", "failed"]
 STATUSES: tuple[Status, ...] = get_args(Status)
 FIELDS: Mapping[str, Field] = {
     "commands": Field(("stage", "rotor"), unit="N"),
-    "target": Field(("axis",), unit="m", low=-saved.FAR, high=saved.FAR),
+    "target": Field(("axis",), unit="m", low=-files.FAR, high=files.FAR),
 }
 # What the flight of a plan is made of.
 FLIGHT: Mapping[str, Field] = {
@@ -50,7 +50,7 @@ def content(plan: Any) -> tuple[dict[str, Variable], dict[str, Any]]:
     """
     check_arrays({**FLIGHT, **FIELDS}, vars(plan), _lengths(plan.vehicle))
     run = plan.trajectory
-    variables, attributes = saved.content(run._variables(), run._attributes(), run.drift)
+    variables, attributes = files.content(run._variables(), run._attributes(), run.drift)
     for name, field in FIELDS.items():
         variables[name] = Variable(tuple(map(str, field.dims)), getattr(plan, name), {"units": field.unit})
     attributes |= {name: getattr(plan, name) for name in ATTRIBUTES if name not in ("objective", "windows")}
@@ -60,20 +60,20 @@ def content(plan: Any) -> tuple[dict[str, Variable], dict[str, Any]]:
 
 
 def _lengths(vehicle: Vehicle) -> dict[str, int]:
-    return saved.LENGTHS | {"rotor": len(vehicle.rotor_spins)}
+    return files.LENGTHS | {"rotor": len(vehicle.rotor_spins)}
 
 
 def fields_of(path: str | Path) -> dict[str, Any]:
     """Return the fields of the `Plan` in the file `path`. Raises InputError if there is none."""
-    variables, attributes = saved.read(path, KIND)
-    run, seal = saved.run_from(variables, attributes, str(path))
+    variables, attributes = files.read(path, KIND)
+    run, seal = files.run_from(variables, attributes, str(path))
     if missing := [name for name in ATTRIBUTES if name not in attributes]:
         raise InputError(str(path), KIND, f"a run: no {', '.join(missing)}")
     try:
         plan, found = check(run, seal, variables, attributes)
     except InputError as error:
         raise InputError(str(path), KIND, f"a damaged one ({error})") from None
-    saved.check_digest(str(path), KIND, attributes, SEAL, found)
+    files.check_digest(str(path), KIND, attributes, SEAL, found)
     return plan
 
 
@@ -90,8 +90,8 @@ def check(
         "vehicle": run["vehicle"],
         "objective": _weights(about),
         "target": arrays["target"],
-        "path": None if np.all(run["x_ref"] == arrays["target"]) else partial(_along, run["t"], run["x_ref"]),
-        "windows": tuple(map(_window, saved.json_of("windows", about, list))),
+        "path": None if np.all(run["x_ref"] == arrays["target"]) else partial(_interpolate, run["t"], run["x_ref"]),
+        "windows": tuple(map(_window, files.json_of("windows", about, list))),
         "t": run["t"],
         "packed": np.concatenate([run[name].reshape(len(run["t"]), -1) for name in SHAPES], axis=1),
         "rotor_forces": run["rotor_forces"],
@@ -126,7 +126,7 @@ def _check(plan: Mapping[str, Any], run: Mapping[str, Any]) -> None:
 
 
 def _weights(about: Mapping[str, Any]) -> dict[str, float]:
-    given = saved.json_of("objective", about, dict)
+    given = files.json_of("objective", about, dict)
     return {name: errors.number(f"objective.{name}", value, at_least=0) for name, value in given.items()}
 
 
@@ -141,7 +141,7 @@ def _count(name: str, about: Mapping[str, Any]) -> int:
     return errors.integer(name, int(value) if value == int(value) else value, 0, MOST_COUNT)
 
 
-def _along(times: Any, places: Any, t: Any) -> Any:
+def _interpolate(times: Any, places: Any, t: Any) -> Any:
     """Return the place (3, 1), m, at `t` (s) on straight lines between `places` (n, 3) at `times` (n,), exact there."""
     begun = ca.SX(ca.DM(times)) <= t
     now = begun * (1 - ca.vertcat(begun[1:], 0))

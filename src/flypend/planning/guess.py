@@ -90,7 +90,7 @@ def styles(asked: Request) -> Array:
 
 
 @built(maxsize=8)
-def pumping(rotors: int) -> Stagewise:
+def pump_program(rotors: int) -> Stagewise:
     """Return the compiled guess (state, style, limits, timing, vehicle) → state after a stage, and command."""
     return stagewise(_pump(Stage(rotors)), shared=(1, 2, 3, 4))
 
@@ -206,7 +206,7 @@ def lean_guess(asked: Request, style: int, stages: int, h: float) -> tuple[Array
     when = np.clip(np.rint(stages * passed[:-1] / passed[-1]).astype(int), 1, stages - 1)
     wanted = np.array([most * (along * w.axes[0, :2] + across * w.axes[2, :2]) for w in windows])
     onward = np.array([-np.sign(begin @ w.axes[2]) * unit(w.axes[2] * (1, 1, 0))[:2] for w in windows])
-    lean, level = _leaning(stages, h, when, wanted, (route[1:] - begin)[:, :2], speed * onward)
+    lean, level = _lean(stages, h, when, wanted, (route[1:] - begin)[:, :2], speed * onward)
     size = np.hypot(*lean.T)[:, None] + LEAST
     held = np.minimum(size, MOST * most)
     # In the wall the middle of the rod is at the height of the middle of the window.
@@ -216,7 +216,7 @@ def lean_guess(asked: Request, style: int, stages: int, h: float) -> tuple[Array
     return _with_thrust(asked, x, np.hstack([np.sin(held) * lean / size, np.cos(held)]), h)
 
 
-def _leaning(
+def _lean(
     stages: int, h: float, when: Array, wanted: Array, places: Array, speeds: Array
 ) -> tuple[Array, Array]:  # fmt: skip
     """Return λ and the way of the pivot, (stages + 1, 2) each.

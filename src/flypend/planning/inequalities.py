@@ -19,7 +19,7 @@ from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import MOTION, POSITION, VELOCITY, Scaled, Stage, retract
 from flypend.planning.riccati import Layout
-from flypend.planning.window import NUMBERS, passing
+from flypend.planning.window import NUMBERS, funnel_margins
 
 # Tolerances at the end, in own units.
 END = {"x": 0.01, "x_dot": 0.02, "tilt": 0.03, "omega": 0.06, "y": 0.015, "y_dot": 0.03, "rotors": 0.15}
@@ -120,7 +120,7 @@ def nearness(state: ca.SX, about: ca.SX, numbers: ca.SX, structure: Structure, m
     to keep, in rod lengths or weights.
     """
     gates = ca.vertsplit(numbers[structure.slices["gates"]], NUMBERS) if structure.gates else []
-    near = [beyond(state, numbers, structure), *(-passing(state, about, gate) for gate in gates)]
+    near = [beyond(state, numbers, structure), *(-funnel_margins(state, about, gate) for gate in gates)]
     if structure.mounted is not None:
         near.append(numbers[-1] - _least_margin(state, about, structure.mounted, machine))
     return ca.fmax(0, ca.vertcat(ca.SX(0, 1), *near) / SOFT)
@@ -175,15 +175,15 @@ def end_errors(state: ca.SX, numbers: ca.SX, *, other: bool = False) -> ca.SX:
     return ca.vertcat(
         s.x / END["x"],
         (s.x_dot - x_dot) / END["x_dot"],
-        _apart(s.z, z) / END["tilt"],
+        _direction_error(s.z, z) / END["tilt"],
         (s.omega - omega) / ca.vertcat(END["omega"], END["omega"], numbers[YAW]),
-        _apart(s.y, y) / END["y"],
+        _direction_error(s.y, y) / END["y"],
         (s.y_dot - y_dot) / END["y_dot"],
         hovers * (state[SIZE:] - 1) / END["rotors"],
     )
 
 
-def _apart(a: ca.SX, b: ca.SX) -> ca.SX:
+def _direction_error(a: ca.SX, b: ca.SX) -> ca.SX:
     """Return the error of a unit vector `a` from `b`: the double tangent of half their angle (3, 1), and 1 − a·b.
 
     The tangent is kept finite for antipodes, where it vanishes and 1 − a·b is 2; near `b` that is of second order.

@@ -47,7 +47,7 @@ class ModelError:
         units, n = Units.of(vehicle), len(vehicle.rotor_spins)
         self._vehicle = vehicle
         self._own, self._weight, self._h = units.states(n), vehicle.weight, period / units.time
-        self._told = _told(vehicle)
+        self._told = _momenta_program(vehicle)
         self._x, self._P = np.zeros(len(PRIOR)), np.diag(PRIOR**2)
         self._Q, self._R = np.diag(WALK**2) * self._h, np.diag(NOISE**2) * self._h
         self._before: tuple[Array, Array] | None = None
@@ -81,7 +81,7 @@ class ModelError:
 
 
 @built(maxsize=16)
-def _told(vehicle: Vehicle) -> Any:
+def _momenta_program(vehicle: Vehicle) -> Any:
     """Return (state and rotor forces (24 + n,), own units) → momenta (9,), and rates (9 · 12,).
 
     The rates are columns: those by the model, and their derivatives with respect to what is estimated.

@@ -270,13 +270,13 @@ class FinalWatch(Watch):
         return replace(found, unfinished="") if self._steady >= self.enough else found
 
 
-def agreeing(costs: ArrayLike) -> int:
+def count_agreeing(costs: ArrayLike) -> int:
     """Return how many of `costs`, infinite for what cannot be flown, are within `SAME` of the least."""
     least = np.min(costs)
     return int(np.sum(np.asarray(costs) <= (1 + SAME) * least)) if np.isfinite(least) else 0
 
 
-def raced(race: Race, watch: Watch, deadline: float) -> Found:
+def run_race(race: Race, watch: Watch, deadline: float) -> Found:
     """Return what a `race` finds until its `watch` is done, or the `deadline` (s) of this thread's time is over."""
     while not watch.done and time.thread_time() < deadline:
         signals.poll()

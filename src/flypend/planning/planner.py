@@ -22,11 +22,11 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, Keywords, gather
 from flypend.planning.durations import HORIZONS, Search, in_time, ladder, shortest
 from flypend.planning.inequalities import EFFORT
-from flypend.planning.multistart import NOT_KEPT, Found, Job, agreeing
+from flypend.planning.multistart import NOT_KEPT, Found, Job, count_agreeing
 from flypend.planning.problem import Request, end_of, request
 from flypend.planning.result import Plan, PlanEnsemble
-from flypend.planning.search import Tried, finished, improved, one_by_one, plan_of, prepare, together
-from flypend.signals.waiting import result_of, threads
+from flypend.planning.search import Tried, finish, improve, one_by_one, plan_of, prepare, together
+from flypend.signals.polling import result_of, threads
 
 LONGEST = 60.0  # √(l/g)
 # Styles of guesses in the order in which they are tried: the one that fails least, then those that find what it does
@@ -99,7 +99,7 @@ def plan(
     timed = objective == "time"
     # Without constraints first: many keep the best plan anyway, and walls that it does not touch would lead past it.
     free = asked.constrained and not asked.structure.gates and not timed
-    attempts = [asked.unconstrained(), asked] if free else [asked]
+    attempts = [asked.without_constraints(), asked] if free else [asked]
     if asked.leaning:
         attempts.append(replace(asked, again=True))
     for attempt in attempts:
@@ -129,7 +129,7 @@ def plan_within(
     """
     found = [together(asked, horizon, math.inf, iterations, rounds)]
     if asked.kept.loose:
-        found.append(together(asked.unconstrained(), horizon, math.inf, iterations, rounds, kept=asked))
+        found.append(together(asked.without_constraints(), horizon, math.inf, iterations, rounds, kept=asked))
     tries = [Tried.of(asked, each, horizon) for each in found]
     if not any(tries) and otherwise is not None:
         found = [replace(each, lacks="" if each.lacks == NOT_KEPT else each.lacks) for each in found]
@@ -221,9 +221,9 @@ def _plan_each(asked: Sequence[Request], horizons: Sequence[float], guesses: int
         jobs, before = [best[i].job for i in flown], [best[i].found for i in flown]
         for i, each in zip(flown, _solve(jobs, horizon, before), strict=True):
             spent[i] += each.found.spent
-            best[i] = best[i].ended(each)
+            best[i] = best[i].better_of(each)
     return [
-        replace(best[i].plan, solve_time=float(spent[i]), guesses=len(costs[i]), agreeing=agreeing(costs[i]))
+        replace(best[i].plan, solve_time=float(spent[i]), guesses=len(costs[i]), agreeing=count_agreeing(costs[i]))
         for i in range(len(asked))
     ]
 
@@ -234,7 +234,7 @@ def _solve(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | None =
     return [Tried.of(job.asked, each, horizon) for job, each in zip(jobs, found, strict=True)]
 
 
-def coarsened(plan: Plan, many: int) -> tuple[Plan, Request]:
+def coarsen(plan: Plan, many: int) -> tuple[Plan, Request]:
     """Return `plan` solved again with stages `many` times as long, and the request that it answers.
 
     For a computer with little time and memory. Raises InputError if it failed, does not end in inverted hover, has a
@@ -258,7 +258,7 @@ def coarsened(plan: Plan, many: int) -> tuple[Plan, Request]:
     commands = np.concatenate([plan.commands / asked.units.force, np.tile(hover[SIZE:], (left, 1))])
     commands = commands.reshape(stages, many, n).mean(axis=1)
     horizon, job = stages * many * plan.stage / asked.units.time, Job(asked, plan.guess)
-    found = finished(job, horizon, improved(job, horizon, (states, commands), math.inf), math.inf)
+    found = finish(job, horizon, improve(job, horizon, (states, commands), math.inf), math.inf)
     coarse = plan_of(asked, found, horizon)
     if not coarse:
         raise InputError("plan", f"one that can be flown in {stages} stages", coarse.reason)

@@ -19,7 +19,7 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import Constraints, angle, begins_touching, own_function
 from flypend.planning.dynamics import Array, Units
 from flypend.planning.inequalities import END, Structure
-from flypend.planning.window import along, through
+from flypend.planning.window import gates_at, through
 
 STAGES_PER_UNIT = 12  # of √(l/g): 20 ms on hehn2011
 TIGHTER = 3e-3  # by so much the height of the rod is kept above its limit, so that it is kept between stages too
@@ -62,7 +62,7 @@ class Request:
     @property
     def constrained(self) -> bool:
         """Whether there are inequalities beyond those of the machine."""
-        return self.structure != self.unconstrained().structure
+        return self.structure != self.without_constraints().structure
 
     @property
     def begins_touching(self) -> bool:
@@ -82,7 +82,7 @@ class Request:
         level = all(float(np.hypot(*window.axes[2, :2])) > HATCH for window in walls)
         return self.structure.lean and len(walls) > 0 and level
 
-    def unconstrained(self) -> Request:
+    def without_constraints(self) -> Request:
         """The same within the limits of the machine alone; what comes of it is still held against `kept`."""
         its = self.structure
         free = Structure(path=its.path, cost=its.cost, end=its.end, mounted=its.mounted)
@@ -148,7 +148,7 @@ def request(
     keep, cost = _own(kept, objective, {"start": (start, forces), "target": (end, np.full(n, units.force))}, n)
     apart, windows, points = kept.clearance or 0.0, kept.windows, kept.points
     route = (start, *(State(x=point, y=E3) for point in points), end)
-    gates = [*(through(each, vehicle, route, goal, apart) for each in windows), *along(points, vehicle, ends, goal)]
+    gates = [*(through(each, vehicle, route, goal, apart) for each in windows), *gates_at(points, vehicle, ends, goal)]
     structure = Structure(
         box=walls is not None, speed=speed is not None, lean=lean is not None, path=kept.path is not None,
         gates=len(gates), keep=keep, cost=cost, end=bool(other),

@@ -225,7 +225,7 @@ class PlanInFlight:
         gap = (off / self._of_deviation)[MOVED]
         self._gaps = 0 if gap @ gap < GAP**2 else self._gaps + 1
         begun = time.process_time()
-        there = self._ahead(t, here, outside * self._weight, scales, self._begin + first * self._stage)
+        there = self._predict(t, here, outside * self._weight, scales, self._begin + first * self._stage)
         relative = scales / self._planned_for
         good = self._realtime.improve(first, there / self._units(scales), self._been, outside, relative)
         self.spent.append(time.process_time() - begun)
@@ -237,7 +237,7 @@ class PlanInFlight:
         if good:
             self._due = (t + took, first, first + self._realtime.horizon(first), scales)
 
-    def _ahead(self, t: float, here: Array, forces: Array, scales: Array, until: float) -> Array:
+    def _predict(self, t: float, here: Array, forces: Array, scales: Array, until: float) -> Array:
         """Return state and rotor forces (24 + n,) at `until` (s), with feedback along the plan as it is."""
         h, there = (until - t) / SUBSTEPS, here
         for i in range(SUBSTEPS if h > 1e-9 else 0):

@@ -174,7 +174,7 @@ class Receding:
 
     def check(self, vehicle: Vehicle) -> None:
         """Raise InputError if there are no plans for `vehicle`, or hover at the reference breaks a constraint."""
-        there = _moving(self.reference)(0.0)[:3]
+        there = _reference_program(self.reference)(0.0)[:3]
         request(vehicle, State(x=there, y=E3), "excursion", there, kept=self.kept(there, there))
 
     @property
@@ -215,7 +215,7 @@ class Pilot(Boards):
         super().__init__(loop, receding.law, receding.latency, rotors)
         self._common, self._vehicle = receding, loop.vehicle
         self._units, self._m = Units.of(loop.vehicle), loop.vehicle.m / (loop.vehicle.M + loop.vehicle.m)
-        self._where = _moving(receding.reference)
+        self._where = _reference_program(receding.reference)
         self._error = ModelError(loop.vehicle, 1 / loop.sampled.rate)
         self._fallback = Fallback(self._by_law, receding.constraints.clearance or 0.0)
         self._mode = "waiting"
@@ -292,7 +292,7 @@ class Pilot(Boards):
         if coming.plan is None or coming.asked is None:
             self._fail(t, coming.why)
             return
-        self._change(t, "planned", coming.plan.told)
+        self._change(t, "planned", coming.plan.summary)
         self.plans.append(coming.plan)
         self._flight = PlanInFlight(
             coming.plan, coming.asked, coming.begin, self._common.computing, self._vehicle, coming.scales
@@ -374,7 +374,7 @@ class Pilot(Boards):
 
 
 @built(maxsize=16)
-def _moving(reference: Reference) -> Any:
+def _reference_program(reference: Reference) -> Any:
     """Return the function from time (s) to position, velocity and acceleration (9,) of `reference`."""
     t = ca.SX.sym("t")
     position = ca.densify(reference(t))

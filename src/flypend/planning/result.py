@@ -16,10 +16,10 @@ from flypend import errors
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
-from flypend.flight.labelled import UNITS, column_names
+from flypend.flight.files import write
+from flypend.flight.labels import UNITS, column_names
 from flypend.flight.metrics import wilson
 from flypend.flight.outcome import Outcome
-from flypend.flight.saved import write
 from flypend.flight.trajectory import Trajectory
 from flypend.geometry import E3, norm
 from flypend.laws.references import Reference, hover, sample
@@ -103,11 +103,11 @@ class Plan:
     windows: tuple[Window, ...] = ()
 
     def __repr__(self) -> str:
-        """Return the vehicle and what `told` says."""
-        return f"<Plan for {self.vehicle.name}: {self.told}>"
+        """Return the vehicle and the `summary`."""
+        return f"<Plan for {self.vehicle.name}: {self.summary}>"
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         """Duration, excursion, status and what it took, in one line."""
         why = f" ({self.reason})" if self.reason else ""
         reached = f"{self.duration:.2f} s, excursion {self.excursion:.3f} m"

@@ -37,17 +37,17 @@ class Layout:
     m = property(lambda self: int(self.B.size2()), doc="Length of a command.")
     of_slopes = property(lambda self: self.F.nnz() if self.block == 1 else self.n * self.width, doc="Length of F.")
     of_stage = property(
-        lambda self: self._padded(2 * self.width + self.m + 2 + self.Q.nnz()), doc="Length of the cost of a stage."
+        lambda self: self._pad(2 * self.width + self.m + 2 + self.Q.nnz()), doc="Length of the cost of a stage."
     )
     _of_matrix = property(lambda self: self.n * (self.n + 1) // 2 if self.block == 1 else self.n * self.width)  # P
     of_shared = property(lambda self: self._of_matrix + 2 * self.width, doc="Place of c, g and v in a cost to go.")
-    of_to_go = property(lambda self: self._padded(self.of_shared + 3), doc="Length of a cost to go.")
+    of_to_go = property(lambda self: self._pad(self.of_shared + 3), doc="Length of a cost to go.")
     of_gains = property(lambda self: self.m * (self.n + 2), doc="Length of the gains of a stage: rows of K, k and k_e.")
 
     @property
     def width(self) -> int:
         """Length of a row."""
-        return self._padded(self.n + self.m)
+        return self._pad(self.n + self.m)
 
     @property
     def F(self) -> ca.Sparsity:
@@ -91,7 +91,7 @@ class Layout:
         low, high = min(i, j), max(i, j)
         return high * (high + 1) // 2 + low if self.block == 1 else low * self.width + high
 
-    def _padded(self, length: int) -> int:
+    def _pad(self, length: int) -> int:
         return -(-length // self.block) * self.block
 
     def _row(self, values: ca.SX) -> ca.SX:

@@ -17,7 +17,7 @@ from flypend.model.state import SIZE
 from flypend.planning.constraints import begins_touching, broken
 from flypend.planning.dynamics import Array, Stage
 from flypend.planning.files import Status
-from flypend.planning.guess import arcs, lean_guess, leans, pumping, styles
+from flypend.planning.guess import arcs, lean_guess, leans, pump_program, styles
 from flypend.planning.multistart import (
     FINAL,
     MOST_ITERATIONS,
@@ -32,8 +32,8 @@ from flypend.planning.multistart import (
     Race,
     Verdict,
     Watch,
-    agreeing,
-    raced,
+    count_agreeing,
+    run_race,
 )
 from flypend.planning.problem import STAGES_PER_UNIT, Request
 from flypend.planning.result import Plan
@@ -52,7 +52,7 @@ def stages_of(horizon: float) -> tuple[int, float]:
 @builds
 def prepare(asked: Request) -> None:
     """Compile what solves `asked`, or take it from the cache."""
-    programs_of(asked), pumping(asked.rotors)
+    programs_of(asked), pump_program(asked.rotors)
 
 
 def together(
@@ -72,7 +72,7 @@ def together(
     jobs = _every_style(asked)
     given_up = ({} if asked.structure.soft else ROUNDS) if rounds is None else rounds
     race = Race(programs_of(asked), *make_guesses(jobs, horizon), given_up, kept)
-    return raced(race, Watch(jobs, range(WIDTH), most), deadline)
+    return run_race(race, Watch(jobs, range(WIDTH), most), deadline)
 
 
 class Relay(Race):
@@ -92,7 +92,7 @@ class Relay(Race):
 
     def leg(self, iterations: int) -> Found:
         """Do so many `iterations`, and return the best of this leg; the cheapest, if none reaches its end."""
-        found = raced(self, Watch(self._jobs, range(WIDTH), iterations, self._first), math.inf)
+        found = run_race(self, Watch(self._jobs, range(WIDTH), iterations, self._first), math.inf)
         self._first *= SOFT_GROWTH**iterations
         self._spent += found.spent
         found = replace(found, iterations=self._iterations, spent=self._spent)
@@ -104,23 +104,23 @@ class Relay(Race):
         return replace(found, states=states, commands=commands, style=lane)
 
 
-def improved(job: Job, horizon: float, guess: Guess, deadline: float, watch: Watch | None = None) -> Found:
+def improve(job: Job, horizon: float, guess: Guess, deadline: float, watch: Watch | None = None) -> Found:
     """Solve from a `guess` of one's own, in as many stages as it has; its first state is the start.
 
     `job` says what is asked for, and the number of the guess. By default it is watched as one that keeps its distance.
     """
     watch = watch or Watch([job], [0], first=SOFT_LAST)
     race = Race(programs_of(job.asked), *_begun([job], horizon, [guess]), {}, settings=watch.settings)
-    return raced(race, watch, deadline)
+    return run_race(race, watch, deadline)
 
 
-def finished(job: Job, horizon: float, found: Found, deadline: float, settings: Settings = FINAL) -> Found:
+def finish(job: Job, horizon: float, found: Found, deadline: float, settings: Settings = FINAL) -> Found:
     """Solve what was `found` for a `job` to the end with `settings`."""
     watch = FinalWatch(job, settings=settings)
-    return _joined(found, improved(job, horizon, (found.states, found.commands), deadline, watch))
+    return _join(found, improve(job, horizon, (found.states, found.commands), deadline, watch))
 
 
-def _joined(found: Found, final: Found) -> Found:
+def _join(found: Found, final: Found) -> Found:
     """Return the `final` of what was `found` by a search, with the iterations of both."""
     return replace(final, costs=found.costs, iterations=found.iterations + final.iterations)
 
@@ -166,7 +166,7 @@ def one_by_one(jobs: Sequence[Job], horizon: float, before: Sequence[Found] | No
                 watches[lane] = watching(following, lane)
                 following += 1
     ended = [found[i] for i in range(len(jobs))]
-    return ended if before is None else [*map(_joined, before, ended)]
+    return ended if before is None else [*map(_join, before, ended)]
 
 
 def _every_style(asked: Request) -> list[Job]:
@@ -189,7 +189,7 @@ def make_guesses(jobs: Sequence[Job], horizon: float, stages: int | None = None)
     limits = side_by_side([each.vehicle.rotor_limits / each.units.force for each in asked])
     states, commands = lanes(stages + 1, SIZE + n), lanes(stages, n)
     states[0] = side_by_side([each.start for each in asked])
-    pumping(n)(stages, states, style, limits, problem.timing, problem.vehicle, states[1:], commands)
+    pump_program(n)(stages, states, style, limits, problem.timing, problem.vehicle, states[1:], commands)
     for lane, job in enumerate(jobs):
         if leans(job.asked, job.style):
             states[..., lane], commands[..., lane] = lean_guess(job.asked, job.style, stages, h)
@@ -251,7 +251,7 @@ class Tried:
         """Its guess."""
         return Job(self.asked, self.found.style)
 
-    def ended(self, final: Tried) -> Tried:
+    def better_of(self, final: Tried) -> Tried:
         """Return what solving this to the end came to, `final`, if that converged or is better; else this."""
         return final if final and (not final.found.unfinished or final.found.cost < self.found.cost) else self
 
@@ -273,5 +273,5 @@ def plan_of(asked: Request, found: Found, horizon: float) -> Plan:
         t=np.arange(len(dense), dtype=float) * float(stage / DENSE), packed=packed, rotor_forces=forces,
         commands=found.commands * units.force, stage=stage, status=status, reason=lacks or found.unfinished,
         solve_time=found.spent, iterations=found.iterations, stationarity=found.stationarity, guess=found.style,
-        guesses=len(found.costs), agreeing=0 if lacks else agreeing(found.costs),
+        guesses=len(found.costs), agreeing=0 if lacks else count_agreeing(found.costs),
     )  # fmt: skip

@@ -69,7 +69,7 @@ def programs(rotors: int, structure: Structure, *, lanes: bool) -> Programs:
         exact=barrier.exact,
         end_size=barrier.end_size,
         summary=3 + (structure.cost != ""),
-        linearised=each(stage.linearised(gap, layout.slopes(A, B)), shared=(3, 4)),
+        linearised=each(stage.linearise(gap, layout.slopes(A, B)), shared=(3, 4)),
         values=each(barrier.values(), shared=(2, 3, 4, 6)),
         terms=each(barrier.terms(layout), shared=(2, 3, 4, 7)),
         steps=each(barrier.steps(), shared=(2, 3, 4, 7, 10)),
@@ -300,7 +300,7 @@ class Solver:
         """What the lanes have come to."""
         numbers, asked = self._problem.numbers, self._asked[0]
         cost = self.merit + (asked - numbers[SHARED]) * self.shared
-        excursion = np.sqrt(np.max(self._squared(self.states, self._after), axis=0))
+        excursion = np.sqrt(np.max(self._squared_distances(self.states, self._after), axis=0))
         effort = numbers[EFFORT] * np.sum((self.commands[self._stages] - 1) ** 2, axis=(0, 1)) / 2
         value = asked * excursion**2 + effort + self._wished
         stuck = self.damping >= self._set.most_damping
@@ -411,7 +411,7 @@ class Solver:
         self._roll(first, stages.stop - first)
         # The ball grows if need be, so that its slack keeps the same share as those of the commands.
         room = np.maximum((1 - self._set.room) * slack[:, exact - 1], LEAST_ROOM)
-        kept = self._squared(w.new_states, stages) + room
+        kept = self._squared_distances(w.new_states, stages) + room
         self._new_shared[0] = np.maximum(self.shared + length * self._epsilon[0], kept.max(axis=0))
         w.trial[stages, exact:] = slack[:, exact:] + length * w.s_step[stages, exact:]
 
@@ -458,7 +458,7 @@ class Solver:
         self._weight[0] = np.clip(factor * before, settings.end_weight, settings.most_end_weight)
         self._offset[:] = np.sign(self._errors) * pushed * (before / self._weight[0])
 
-    def _squared(self, states: Array, stages: slice) -> Array:
+    def _squared_distances(self, states: Array, stages: slice) -> Array:
         """Return the squared distances (k, lanes) of the pivot from where it is to be, at the beginning of `stages`."""
         places, x = self._problem.places, states[stages, POSITION]
         x = x if places is None else x - places[stages]
@@ -468,7 +468,7 @@ class Solver:
     def _fit(self, on: Any) -> None:
         """Let the ball hold all states, in the lanes `on`."""
         share, more = self._set.margin
-        most = self._squared(self.states, self._after).max(axis=0)[on]
+        most = self._squared_distances(self.states, self._after).max(axis=0)[on]
         self.shared[on] = np.maximum(self.shared[on], (1 + share) * most + more)
 
     def damp(self, damping: Array) -> None:

@@ -235,10 +235,10 @@ class Autopilot:
     def command(self, t: float, measured: Any) -> Any:
         """Return the rotor forces (n,), N, for the `measured` state (24,), e₃ up, or readings, at time `t` (s)."""
         if self._flies is None:
-            self._flies, self._begin = self._planned(measured if self._estimate is None else self._estimate), t
+            self._flies, self._begin = self._plan_computer(measured if self._estimate is None else self._estimate), t
         return self._flies.command(t - self._begin, measured)
 
-    def _planned(self, state: Any) -> FlightComputer:
+    def _plan_computer(self, state: Any) -> FlightComputer:
         """Return what flies from a `state` (24,) on."""
         vehicle = self._loop.vehicle
         forces = np.clip(self._rotors, *vehicle.rotor_limits)

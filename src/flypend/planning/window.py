@@ -164,7 +164,7 @@ def _edges(states: State, vehicle: Vehicle) -> tuple[Array, Array, Array]:
     return first, last, thick
 
 
-def passing(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
+def funnel_margins(state: ca.SX, about: ca.SX, numbers: ca.SX) -> ca.SX:
     """Return g (10, 1), of which all are ≥ 0 in the funnel of a window; in rod lengths, as distances near its edge.
 
     Of the rod in a `state` (24 + n, 1) both ends and the worst point between count, which is found in the state `about`
@@ -208,7 +208,7 @@ def _worst(first: ca.SX, run: ca.SX, axis: int, slope: ca.SX) -> ca.SX:
 
 
 def through(window: Window, vehicle: Vehicle, route: Sequence[State], target: Array, clearance: float) -> Array:
-    """Return the numbers (NUMBERS,) of a `window` for `passing`, in own units about the `target` (3,), m.
+    """Return the numbers (NUMBERS,) of a `window` for `funnel_margins`, in own units about the `target` (3,), m.
 
     The funnel keeps `vehicle` a `clearance` (m) from the frame. The `route`, which is start, waypoints and end, is to
     be in it, start and end on different sides of the wall. Raises InputError if the opening is too small for the rod
@@ -227,8 +227,8 @@ def through(window: Window, vehicle: Vehicle, route: Sequence[State], target: Ar
     return _numbers(window, neck, np.array([vehicle.reach, radius, height]), route, target, Units.of(vehicle), "window")
 
 
-def along(points: Array, vehicle: Vehicle, ends: Sequence[State], target: Array) -> list[Array]:
-    """Return the numbers (NUMBERS,) for `passing` of gates about each of the `points` (k, 3), m, for the pivot alone.
+def gates_at(points: Array, vehicle: Vehicle, ends: Sequence[State], target: Array) -> list[Array]:
+    """Return the numbers (NUMBERS,) for `funnel_margins` of gates about each of `points` (k, 3), m; for the pivot.
 
     A gate is normal to the line from the point before to that after it, `ends` being the first and the last; its size
     keeps the pivot within `NEAR` of the point. Raises InputError if a point is not between those before and after it.

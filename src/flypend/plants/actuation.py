@@ -16,7 +16,7 @@ from flypend.model.allocation import allocate
 from flypend.model.momenta import moment_for
 from flypend.model.state import SIZE
 from flypend.plants.equations import EquationsEngine
-from flypend.plants.motors import moving
+from flypend.plants.motors import motion_parts
 from flypend.plants.mujoco import MujocoEngine, filter_lag, substeps
 from flypend.plants.mujoco_world import motors, step_numbers, surroundings
 from flypend.plants.plant import Plant
@@ -56,7 +56,7 @@ class Mujoco:
     def __init__(self, vehicle: Vehicle, plant: Plant) -> None:
         self._vehicle, self._plant, self._lag = vehicle, plant, filter_lag(vehicle)
         self._engine = MujocoEngine(vehicle, lag=self._lag)
-        self._motors, self._surroundings = _compile_world(vehicle, moving(plant))
+        self._motors, self._surroundings = _compile_world(vehicle, motion_parts(plant))
         self._lost = False
 
     @property
@@ -81,12 +81,12 @@ class Mujoco:
         numbers = step_numbers(self._vehicle, self._plant, duration / steps)
         for _ in range(steps):
             try:
-                self._engine.step(*self._prepared(command, wind, numbers))
+                self._engine.step(*self._prepare(command, wind, numbers))
             except InputError:
                 self._lost = True
                 return
 
-    def _prepared(self, command: Numbers, wind: Numbers, numbers: Numbers) -> tuple[Any, ...]:
+    def _prepare(self, command: Numbers, wind: Numbers, numbers: Numbers) -> tuple[Any, ...]:
         """Return controls and outside forces for the next step of MuJoCo."""
         engine, controls = self._engine, command
         if self._motors is not None:

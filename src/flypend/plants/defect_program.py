@@ -149,7 +149,7 @@ class Defects:
         lengths = [len(some) for some in sizes(sensors, period).values()]
         parts = ca.vertsplit(numbers, np.cumsum([0, *lengths]).tolist()) if lengths else []
         self._sizes = dict(zip(sizes(sensors, period), parts, strict=True))
-        self._errors = dict(self._lasting())
+        self._errors = dict(self._lasting_errors())
         for name in ("gyro", "accelerometer"):
             if (size := self._sizes.get(f"{name}_bias_walk")) is not None:
                 self.memory[f"{name}_walk"] += size * draws[f"{name}_bias_walk"]
@@ -160,7 +160,7 @@ class Defects:
             burst, lasts = self.memory["burst"], self._sizes["bursts"][1]
             self.memory["burst"] = ca.if_else(begins, lasts, ca.fmax(burst - period, 0))
 
-    def _lasting(self) -> Iterator[tuple[str, Any]]:
+    def _lasting_errors(self) -> Iterator[tuple[str, Any]]:
         """Yield name and value of every error that lasts; a rotation that is given as its matrix, by rows."""
         place, of_flight = 0, names_drawn(self._sensors)
         for name, (length, *_) in CONSTANT.items():

@@ -20,7 +20,7 @@ from flypend.model.state import SIZE, project_symbolic
 from flypend.plants import machine
 from flypend.plants.cascade import cascade_step
 from flypend.plants.lag import Ramp
-from flypend.plants.motors import follow, motor_timing, moving, settle_forces, timing_size
+from flypend.plants.motors import follow, motion_parts, motor_timing, settle_forces, timing_size
 from flypend.plants.plant import ROTORS, Plant
 
 
@@ -36,7 +36,7 @@ class EquationsEngine:
     """
 
     def __init__(self, vehicle: Vehicle, plant: Plant = ROTORS) -> None:
-        self._vehicle, self._moving = vehicle, moving(plant)
+        self._vehicle, self._moving = vehicle, motion_parts(plant)
         self._lag, self._plant = vehicle.rotor_lag, plant
         self.packed: Any = np.zeros(SIZE)
         self.rotors: Any = np.zeros(len(vehicle.rotor_spins))
@@ -102,7 +102,7 @@ def step_state(
         if wind is not None:
             at_pivot, on_bob = share_out(wind[3:], vehicle)
             outside = ca.vertcat(wind[:3] + at_pivot, on_bob)
-        moved = cascade_step(packed, forces.mixed(vehicle.mixing()), outside, timing[0], vehicle)
+        moved = cascade_step(packed, forces.mix(vehicle.mixing()), outside, timing[0], vehicle)
     return ca.cse([ca.densify(moved), ca.densify(after)])  # type: ignore[no-any-return]
 
 
@@ -136,7 +136,7 @@ def runge_kutta_step(
         As in `EquationsEngine`.
     """
     wind = ca.SX(6, 1) if outside is None else outside
-    wrench = forces.mixed(vehicle.mixing())
+    wrench = forces.mix(vehicle.mixing())
 
     def rates(s: Numbers, rotors: Any, acting: Numbers) -> Numbers:
         return rates_under(s, rotors, acting, wind, vehicle, plant)

@@ -95,7 +95,7 @@ def depth(plant: Sampled) -> int:
 
 
 def _intervals(delay: Scalar, period: float, longest: float) -> list[tuple[Scalar, Scalar, Scalar]]:
-    """Age, steps and duration (s) of the intervals of a tick, as `within_period` and `steps_in`; one may be empty."""
+    """Age, steps and duration (s) of the intervals of a tick, as `segments_within` and `steps_in`; one may be empty."""
     whole = ca.floor((delay + SAME) / period)
     rest = delay - whole * period
     rest = ca.if_else(rest > SAME, rest, 0)

@@ -36,7 +36,7 @@ class Ramp(NamedTuple):
         """Value at the end of the step."""
         return self.mean + self.change / 2
 
-    def mixed(self, matrix: Numbers) -> Ramp:
+    def mix(self, matrix: Numbers) -> Ramp:
         """Return the ramp of `matrix` times the quantity."""
         return Ramp(ca.mtimes(matrix, self.mean), ca.mtimes(matrix, self.change))
 

@@ -58,11 +58,11 @@ def measurement(*, moved: bool = False) -> ca.Function:
     error = [noise[name] * each for name, each in zip(noise, draw, strict=True)]
     error[0] -= origin if moved else 0
     error[4] = tangent_part(s.y, error[4])
-    measured = displaced(s, ca.vertcat(*error))
+    measured = displace(s, ca.vertcat(*error))
     return ca.Function("measure", [packed, draws, ca.vertcat(sigma, origin)], [ca.cse(ca.densify(measured.packed()))])
 
 
-def displaced(s: State, error: Numbers) -> State:
+def displace(s: State, error: Numbers) -> State:
     """Return the state, on the manifold, that a local `error` (18, 1) makes of `s`, in CasADi.
 
     The error is (δx, δẋ, φ, δω, δy, δẏ), with R exp(φ̂) for the attitude.

@@ -20,7 +20,7 @@ BESIDE = (
 )  # fmt: skip
 
 
-def moving(plant: Plant) -> Plant:
+def motion_parts(plant: Plant) -> Plant:
     """Return what a step of the motion depends on: motors, air and ground of `plant`."""
     return Plant(**{each.name: getattr(plant, each.name) for each in fields(plant) if each.name not in BESIDE})
 

@@ -39,7 +39,7 @@ from flypend.model.mjcf import model_xml
 from flypend.model.state import SIZE
 from flypend.plants.loop import Loop
 from flypend.plants.plant import Plant
-from flypend.plants.schedule import fewest_steps, steps_in, within_period
+from flypend.plants.schedule import fewest_steps, segments_within, steps_in
 
 # MuJoCo replaces a motor force that is NaN or larger than this (N) by zero, with only a warning.
 MAX_FORCE = 1e10
@@ -284,7 +284,7 @@ class MuJoCoWorld:
     def lent(cls, loop: Loop) -> Iterator[MuJoCoWorld]:
         """Yield a world for flights of `loop`, idle or new, and take it back afterwards."""
         plant = loop.sampled
-        stretches = within_period(plant.delay, 1 / plant.rate)
+        stretches = segments_within(plant.delay, 1 / plant.rate)
         lengths = [stretch.duration / steps_in(stretch.duration, plant) for stretch in stretches]
         true = plant.true_vehicle(loop.vehicle)
         timesteps = tuple(length / substeps(length, true, plant) for length in lengths)

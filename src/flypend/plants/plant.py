@@ -152,7 +152,7 @@ class Ideal:
         # Hashable, as every plant.
         object.__setattr__(self, "rotors", tuple(map(tuple, given.tolist())) if given.ndim > 1 else tuple(given))
 
-    def beginning(self, vehicle: Vehicle, runs: int, e3: E3Direction) -> NDArray[np.float64]:
+    def initial_wrench(self, vehicle: Vehicle, runs: int, e3: E3Direction) -> NDArray[np.float64]:
         """Return the wrench (runs, 4) at the start in the frame of `e3`. Raises InputError for wrong `rotors`."""
         n = len(vehicle.rotor_spins)
         forces = np.array(np.full(n, vehicle.rotor_limits[0]) if self.rotors is None else self.rotors)
@@ -324,7 +324,7 @@ class Sampled:
 
     def effects(self, vehicle: Vehicle) -> tuple[Any, ...]:
         """Return the forces of the air that act on `vehicle`, of `flypend.model.air.AIR`."""
-        known = _known(vehicle)
+        known = _air_effects(vehicle)
         return known if self.air == ("all",) else tuple(name for name in AIR if name in self.air)
 
     def in_air(self, vehicle: Vehicle) -> bool:
@@ -335,7 +335,7 @@ class Sampled:
         n, strengths = len(vehicle.rotor_spins), np.size(self.strength)
         if strengths not in (1, n):
             raise InputError("plant.strength", f"a number, or one for each of {n} rotors", f"{strengths} numbers")
-        known = _known(vehicle)
+        known = _air_effects(vehicle)
         for name in self.air:
             if name not in known and (name != "all" or not known):
                 wanted = "coefficients of the air" if name == "all" else f"a coefficient {name!r} > 0"
@@ -351,9 +351,9 @@ class Sampled:
         return replace(self, **changes)
 
 
-def _known(vehicle: Vehicle) -> tuple[AirEffect, ...]:
+def _air_effects(vehicle: Vehicle) -> tuple[AirEffect, ...]:
     """Return the forces of the air whose coefficients `vehicle` has."""
-    return () if vehicle.air is None else vehicle.air.known()
+    return () if vehicle.air is None else vehicle.air.active()
 
 
 def _strength(value: Any) -> float | tuple[float, ...]:

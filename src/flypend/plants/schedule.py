@@ -26,7 +26,7 @@ class Segment(NamedTuple):
     duration: float
 
 
-def within_period(latency: float, period: float) -> tuple[Segment, ...]:
+def segments_within(latency: float, period: float) -> tuple[Segment, ...]:
     """Segments of one control `period` (s), in order, for commands applied `latency` (s) after their measurement.
 
     The command computed at the start of the period has age 0.

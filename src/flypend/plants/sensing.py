@@ -64,7 +64,7 @@ def readings_record(sensors: Sensors) -> Record:
 def memory_record(sensors: Sensors, period: float) -> Record:
     """Return the memory of `sensing` at a control `period` (s): the last true state, defects, readings that wait."""
     wrong = defect_program.record(sensors)
-    lengths = {name: _waiting(sensors, name, period) * _entry(sensors, name) for name in sensors.streams}
+    lengths = {name: _ticks_under_way(sensors, name, period) * _entry(sensors, name) for name in sensors.streams}
     fields = (
         Field("state", SIZE, "at the last tick, e3 up"),
         *[Field.of(wrong)] * bool(wrong.fields),
@@ -84,7 +84,7 @@ def _shifts(sensors: Sensors, name: str) -> bool:
     return name in POSES and defects.shifts(sensors)
 
 
-def _waiting(sensors: Sensors, name: str, period: float) -> int:
+def _ticks_under_way(sensors: Sensors, name: str, period: float) -> int:
     """Return the number of control ticks whose readings of the stream `name` may still be under way."""
     when = timing(_late(sensors, name), period)
     if not _shifts(sensors, name):
@@ -147,7 +147,7 @@ def first_memory(sensors: Sensors, period: float, state: Numbers, draws: Numbers
     queues = [
         np.tile(np.append(np.zeros(WIDTH[name]), [NOTHING, 0.0][: _entry(sensors, name) - WIDTH[name]]), waiting)
         for name in sensors.streams
-        if (waiting := _waiting(sensors, name, period))
+        if (waiting := _ticks_under_way(sensors, name, period))
     ]
     state = state if is_symbolic(state) else ca.DM(state)
     wrong = defect_program.first(sensors, State.symbolic(state).y, of_flight)
@@ -197,7 +197,7 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float, *, sized: bool = 
         queue = ca.vertcat(entry, past.get(name, ca.SX(0, 1)))
         kept.append(queue[: -entry.numel()])
         entries = ca.vertsplit(queue, entry.numel())
-        found = _deliver(entries, when, period) if own is None else _shifted(entries, sensor.latency, period)
+        found = _deliver(entries, when, period) if own is None else _newest_arrived(entries, sensor.latency, period)
         readings.append(_report_age(found, sensor.latency - sensors.streams[name].latency))
     outputs = ca.cse([ca.densify(ca.vertcat(*kept)), ca.densify(ca.vertcat(*readings))])
     return ca.Function("sense", [memory, t, packed, draws, *[sizes] * sized], outputs)
@@ -211,7 +211,7 @@ def _report_age(reading: Numbers, untold: float) -> Numbers:
     return ca.vertcat(reading[:-1], ca.if_else(age >= 0, ca.fmax(age - untold, 0), NOTHING))
 
 
-def _shifted(entries: list[Any], latency: float, period: float) -> Numbers:
+def _newest_arrived(entries: list[Any], latency: float, period: float) -> Numbers:
     """Return numbers and age, less its own part of the latency, of the newest of `entries` that arrives at this tick.
 
     An entry is numbers, age at its tick, and its own part; it arrives at the first tick at which it is old enough.

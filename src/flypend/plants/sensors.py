@@ -247,7 +247,7 @@ class Sensors:
         """Return what the fields of the defects are without any."""
         return {entry.name: entry.default for entry in fields(self) if entry.name in (*defects.NAMES, "adjustable")}
 
-    def following(self, departure: Any) -> Any:
+    def bandwidth(self, departure: Any) -> Any:
         """Return the squared bandwidth, 1/s², at which the estimator follows the force that an accelerometer shows.
 
         `departure` is the squared departure of the specific force from that of hover, (m/s²)².
@@ -257,20 +257,20 @@ class Sensors:
     def trust(self, period: float, departure: Any) -> Any:
         """Return the share of the motion for which the accelerometer answers, not the model: 0 without one.
 
-        `period` is the control period, s, `departure` as in `following`. It compares two squared bandwidths: that of
-        `following`, and that at which the position corrects the velocity (of a Kalman filter of a mass under a force of
+        `period` is the control period, s, `departure` as in `bandwidth`. It compares two squared bandwidths: that of
+        `bandwidth`, and that at which the position corrects the velocity (of a Kalman filter of a mass under a force of
         density `force_error`). An accelerometer that is followed more slowly than that hardly passes its noise on.
         """
         if self.accelerometer is None:
             return 0.0
         assert self.position is not None
-        followed = self.following(departure)
+        followed = self.bandwidth(departure)
         return followed / (followed + self.force_error / np.sqrt(self.position.density(period)))
 
-    def lacking(self, period: float, departure: Any) -> tuple[Any, Any]:
+    def process_noise(self, period: float, departure: Any) -> tuple[Any, Any]:
         """Return the densities of specific forces on vehicle and bob that the estimator assumes, (m/s²)²/Hz.
 
-        `period` is the control period, s, `departure` as in `following`. The faster the accelerometer is followed, the
+        `period` is the control period, s, `departure` as in `bandwidth`. The faster the accelerometer is followed, the
         less the model's own errors count. The accelerometer's noise counts in full. In hover less of it passes, since
         lasting forces are estimated from the same corrections; this is neglected.
         """
@@ -278,10 +278,10 @@ class Sensors:
         noise = 0.0 if self.accelerometer is None else self.accelerometer.density(period)
         return steady + (1 - self.trust(period, departure)) * moving + noise, steady + moving
 
-    def felt(self, period: float, departure: Any = 0.0) -> Any:
+    def accelerometer_density(self, period: float, departure: Any = 0.0) -> Any:
         """Return the density of the accelerometer's noise in the estimate, (m/s²)²/Hz.
 
-        `period` is the control period, s, `departure` as in `following`.
+        `period` is the control period, s, `departure` as in `bandwidth`.
         """
         found = 0.0 if self.accelerometer is None else self.accelerometer.density(period)
         return self.trust(period, departure) * found

@@ -30,7 +30,7 @@ from flypend.laws import BoundLaw
 from flypend.laws.bound import Computer
 from flypend.laws.linearise import COORDINATES, SYMMETRIES, linearise, open_loop
 from flypend.laws.references import hover
-from flypend.laws.throw import carrying
+from flypend.laws.throw import bob_path
 from flypend.model import State, Vehicle, Wrench
 from flypend.plants.lag import largest_lead
 from flypend.plants.plant import AnyPlant, Sampled
@@ -158,7 +158,7 @@ def _tremor(law: BoundLaw, sensors: Sensors, period: float, delay: float, flown:
     loop, driven = _loop(law, flown, period, delay)
     if np.max(np.abs(np.linalg.eigvals(loop))) >= 1:
         return Tremor(np.inf, np.inf)
-    filtered, noise = _filtered(_motion(law.vehicle)[0], sensors, law.vehicle, period)
+    filtered, noise = _filter_errors(_motion(law.vehicle)[0], sensors, law.vehicle, period)
     whole = np.block([[loop, driven], [np.zeros((n, len(loop))), filtered]])
     drive = np.zeros_like(whole)
     drive[-n:, -n:] = noise
@@ -172,7 +172,7 @@ def estimate_errors(vehicle: Vehicle, sensors: Sensors, period: float, times: in
     Coordinates are those of `laws.linearise` without the heading, (15,), SI units; `period` is that of control, s.
     """
     with threadpool_limits(1):
-        F, Q = _filtered(_motion(vehicle)[0], sensors.told, vehicle, period)
+        F, Q = _filter_errors(_motion(vehicle)[0], sensors.told, vehicle, period)
         over, added = np.eye(len(F)), np.zeros_like(Q)
         for _ in range(times):
             over, added = F @ over, F @ added @ F.T + Q
@@ -200,13 +200,13 @@ def _loop(law: BoundLaw, flown: Vehicle, period: float, delay: float) -> tuple[N
     predicted = delay if finds else computer.latency
     left = lag / lead if finds and vehicle.rotor_lag and not computer.models_lag else 0.0
 
-    def lagged(A: Numbers, B: Numbers, duration: float) -> Numbers:
+    def lag_matrices(A: Numbers, B: Numbers, duration: float) -> Numbers:
         rates = np.zeros((n + 8, n + 8))
         rates[:n, : n + 4] = np.hstack([A, B])
         rates[n : n + 4, n:] = np.hstack([-one, one]) / lag
         return exponential(rates * duration)[: n + 4]
 
-    ahead, step = lagged(A, B, left + predicted - delay)[:n], lagged(*_motion(flown), period)
+    ahead, step = lag_matrices(A, B, left + predicted - delay)[:n], lag_matrices(*_motion(flown), period)
     command = -lead * K @ ahead
     command[:, n : n + 4] += (1 - lead) * one
     loop = np.zeros((n + 8, n + 8))
@@ -221,12 +221,12 @@ def _loop(law: BoundLaw, flown: Vehicle, period: float, delay: float) -> tuple[N
 def _feedback(law: BoundLaw) -> Numbers:
     """Return K of the command −K ξ̂ of `law` in hover."""
     A, B = _motion(law.vehicle)
-    held = law if law.along is None else law.along(carrying(hover()))
+    held = law if law.along is None else law.along(bob_path(hover()))
     K: Numbers = np.linalg.pinv(B) @ (A - linearise(held, law.vehicle, State(y=E3)).A[np.ix_(KEPT, KEPT)])
     return K
 
 
-def _filtered(A: Numbers, sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:
+def _filter_errors(A: Numbers, sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers, Numbers]:
     """Return the matrix of a step of the estimator's error e, and the covariance of what is added to it."""
     H, R = _readings(A, sensors, period)
     felt, nominal = _driven(sensors, vehicle, period)
@@ -297,5 +297,5 @@ def _driven(sensors: Sensors, vehicle: Vehicle, period: float) -> tuple[Numbers,
     turning = np.zeros((len(COORDINATES), 3))
     turning[9:12] = np.eye(3)
     v, b, w = (G[KEPT] @ G[KEPT].T for G in (on_vehicle, on_bob, turning))
-    of_vehicle, of_bob = sensors.lacking(period, 0.0)
-    return sensors.felt(period) * v, of_vehicle * v + of_bob * b + sensors.moment_error**2 * w
+    of_vehicle, of_bob = sensors.process_noise(period, 0.0)
+    return sensors.accelerometer_density(period) * v, of_vehicle * v + of_bob * b + sensors.moment_error**2 * w

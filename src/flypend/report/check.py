@@ -13,7 +13,7 @@ from flypend.files.staging import staging
 from flypend.files.whole import save_both
 from flypend.flight.tasks import TASKS
 from flypend.report.studies import comparison_cells
-from flypend.report.text import bullets, markdown_table, number, terminal_table, told, write_report
+from flypend.report.text import bullets, describe, markdown_table, number, terminal_table, write_report
 from flypend.studies.advice import Advice
 from flypend.studies.check import Check
 from flypend.studies.joint import Joint
@@ -119,7 +119,7 @@ def _markdown(
     advice: Advice | None,
 ) -> str:
     """Return the report as Markdown."""
-    parts = ["# Check", told(settings), bullets(verdicts(checks))]
+    parts = ["# Check", describe(settings), bullets(verdicts(checks))]
     if cells := task_cells(checks):
         tasks = {**TASKS, "drawn": "as random, with vehicles drawn from the bands of this one"}
         flown = {name for check in checks.values() for name in check.tasks}

@@ -12,7 +12,7 @@ from flypend.files import whole
 from flypend.files.staging import staging
 from flypend.flight.metrics import metrics
 from flypend.flight.trajectory import Trajectory
-from flypend.model.shipped import name_with_changes
+from flypend.model.by_name import name_with_changes
 from flypend.paper.claims import Verdict, claims_of
 from flypend.pictures.style import Style
 from flypend.report import text

@@ -25,7 +25,7 @@ def write_learned(learner: Learner, out: str | Path) -> Path:
     with staging(out) as folder:
         save(learner.policy, folder / "policy.npz")
         curve = [entry._asdict() for entry in learner.curve]
-        write_json(folder / "curve.json", {"flypend": __version__, "training": learner.training.told, "curve": curve})
+        write_json(folder / "curve.json", {"flypend": __version__, "training": learner.training.data, "curve": curve})
         save_figure(curve_figure(learner.curve), folder / "curve.png")
     return Path(out) / "policy.npz"
 

@@ -21,7 +21,7 @@ from flypend.pictures.style import style_named
 from flypend.report import text
 from flypend.report.flight import Task, check_movies, figure_tasks, movie_tasks
 from flypend.report.text import Column
-from flypend.signals.waiting import processes, result_of
+from flypend.signals.polling import processes, result_of
 
 STOP_MOTION = ("2", "4", "5")
 MOVIES = ("4", "5")

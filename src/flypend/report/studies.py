@@ -11,7 +11,7 @@ from rich.table import Table
 
 from flypend.files.staging import staging
 from flypend.files.whole import save_both
-from flypend.report.text import bullets, markdown_table, terminal_table, told, write_report
+from flypend.report.text import bullets, describe, markdown_table, terminal_table, write_report
 from flypend.settings.runfile import run_text
 from flypend.studies import Comparison, Ladder
 from flypend.studies.compare import summary
@@ -61,7 +61,7 @@ def write_comparison(
     from flypend.pictures.studies import comparison_figure
 
     with staging(out) as folder:
-        text = f"# Laws compared\n\n{told(settings)}\n\n{comparison_markdown(comparison)}\n"
+        text = f"# Laws compared\n\n{describe(settings)}\n\n{comparison_markdown(comparison)}\n"
         write_report(folder, text, {"settings": settings, "laws": comparison.rows()})
         save_both(comparison_figure(comparison), folder / "comparison")
         for name, run in (failed or {}).items():
@@ -98,7 +98,7 @@ def write_ladder(ladder: Ladder, settings: dict[str, Any], out: str | Path) -> N
     broken = bullets(f"{law}: {_broken(ladder, law)}" for law in laws)
     failures = bullets(_failures(ladder)) or "none"
     with staging(out) as folder:
-        text = f"# Reality ladder\n\n{told(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
+        text = f"# Reality ladder\n\n{describe(settings)}\n\n{table}\n\nRungs below 90 % success:\n\n{broken}\n"
         text += f"\nFailures by cause (the quantity out of tolerance during the last second):\n\n{failures}\n"
         content = {
             rung: {law: summary(ensemble) for law, ensemble in comparison.ensembles.items()}

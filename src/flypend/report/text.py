@@ -158,7 +158,7 @@ def _generic(measured: str) -> str:
     return measured.split(" at ")[0]
 
 
-def told(settings: Mapping[str, Any]) -> str:
+def describe(settings: Mapping[str, Any]) -> str:
     """Return `settings` as a sentence."""
     return "; ".join(f"{name}: {value}" for name, value in settings.items()) + "."
 

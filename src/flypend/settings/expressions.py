@@ -59,13 +59,13 @@ class Expression:
         try:
             tree = ast.parse(self.text.strip(), mode="eval").body
             several = tree.elts if isinstance(tree, ast.Tuple) else [tree]
-            return [value for each in several for value in self._compared(each, motion._asdict())]
+            return [value for each in several for value in self._comparisons(each, motion._asdict())]
         except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
             if isinstance(error, InputError):
                 raise
             raise InputError(self.key, EXPECTED, repr(self.text[:60])) from None
 
-    def _compared(self, node: Any, names: Mapping[str, Any]) -> list[Any]:
+    def _comparisons(self, node: Any, names: Mapping[str, Any]) -> list[Any]:
         """Return the values of an expression, or for each comparison of a chain what must be ≥ 0."""
         if not isinstance(node, ast.Compare):
             return [self._value(node, names)]
@@ -80,11 +80,11 @@ class Expression:
 
     def _value(self, node: Any, names: Mapping[str, Any]) -> Any:
         try:
-            return self._computed(node, names)
+            return self._compute(node, names)
         except (RuntimeError, NotImplementedError, ArithmeticError, TypeError, IndexError):  # shapes; 1/0
             raise InputError(self.key, "operations on shapes that fit, indices from 0", ast.unparse(node)) from None
 
-    def _computed(self, node: Any, names: Mapping[str, Any]) -> Any:
+    def _compute(self, node: Any, names: Mapping[str, Any]) -> Any:
         match node:
             case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
                 return float(number)

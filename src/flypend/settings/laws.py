@@ -15,8 +15,8 @@ from typing import Any
 from flypend.building import building
 from flypend.errors import InputError, one_of, only_known
 from flypend.laws import AnyLaw, BoundLaw, Controller, Law, law_from_dict, law_names
+from flypend.laws.law_error import LawError, Located, relative_path
 from flypend.laws.learned import learned, policy
-from flypend.laws.located import LawError, Located, relative_path
 from flypend.laws.own import EXPECTED as FUNCTION
 from flypend.laws.own import from_function, is_factory
 from flypend.laws.trained import trained
@@ -142,7 +142,7 @@ def own_from(value: Any, folder: Path | None, name: str, key: str) -> Any:
 
 def absolute(value: Any, folder: Path) -> Any:
     """Return `value`, a law as in `law_from`, with its file path made absolute from `folder`, to save with results."""
-    return _moved(value, lambda file: str((folder / file).resolve()))
+    return _move_paths(value, lambda file: str((folder / file).resolve()))
 
 
 def relative(value: Any, folder: Path) -> Any:
@@ -157,13 +157,13 @@ def relative(value: Any, folder: Path) -> Any:
         except ValueError:
             return file
 
-    return _moved(value, moved)
+    return _move_paths(value, moved)
 
 
-def _moved(value: Any, move: Callable[[str], str]) -> Any:
+def _move_paths(value: Any, move: Callable[[str], str]) -> Any:
     """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):
-        return {**value, **{name: _moved(value[name], move) for name in PLACES if name in value}}
+        return {**value, **{name: _move_paths(value[name], move) for name in PLACES if name in value}}
     file, attribute = _split(value) if isinstance(value, str) else ("", "")
     return f"{move(file)}{attribute}" if file else value
 

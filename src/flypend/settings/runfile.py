@@ -18,9 +18,9 @@ from flypend.errors import InputError
 from flypend.files.toml import read_toml, toml_text
 from flypend.flight.request import Flight, Tolerances
 from flypend.laws import Controller, Law
-from flypend.laws.named import THEOREM_1
+from flypend.laws.by_name import THEOREM_1
 from flypend.model import State, Vehicle
-from flypend.model.shipped import vehicle_table
+from flypend.model.by_name import vehicle_table
 from flypend.model.state import SHAPES
 from flypend.paper import experiment, experiment_names
 from flypend.plants import AnyPlant, Ideal, Noise, Wind, plant

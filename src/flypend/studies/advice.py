@@ -19,7 +19,7 @@ from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import task_starts
 from flypend.laws import inverted
 from flypend.model import Vehicle
-from flypend.model.rod import stretched
+from flypend.model.rod import stretch
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
 from flypend.studies.margins import LEAST_RATE, Count
@@ -102,7 +102,7 @@ def advise(
         for law, check in checks.items()
         if check.ok and check.tasks
     }
-    why = "; ".join(f"{law}: {_told(flown[law])}" if law in flown else f"{law}: cannot hover" for law in checks)
+    why = "; ".join(f"{law}: {_describe(flown[law])}" if law in flown else f"{law}: cannot hover" for law in checks)
     best = best_of(flown)
     written = tuple(law for law in flown if checks[law].tasks["random"].rate >= LEAST_RATE)
     if not best and written:
@@ -136,27 +136,27 @@ def changes_of(
         progress("changes", done, len(CHANGES) + 1)
         if not np.any(getattr(vehicle, name)):
             continue
-        largest = _flown(vehicle, {name: factors[-1]}, world, seed)
-        smaller = (_flown(vehicle, {name: factor}, world, seed) for factor in factors[:-1])
+        largest = _fly(vehicle, {name: factors[-1]}, world, seed)
+        smaller = (_fly(vehicle, {name: factor}, world, seed) for factor in factors[:-1])
         found.append(next((one for one in smaller if one.works), largest) if largest.works else largest)
     if not any(one.works for one in found):
-        found.append(_flown(vehicle, {name: factors[-1] for name, (factors, _) in CHANGES.items()}, world, seed))
+        found.append(_fly(vehicle, {name: factors[-1] for name, (factors, _) in CHANGES.items()}, world, seed))
     progress("changes", len(CHANGES) + 1, len(CHANGES) + 1)
     return tuple(found)
 
 
-def changed(vehicle: Vehicle, factors: Mapping[str, float]) -> Vehicle:
+def change(vehicle: Vehicle, factors: Mapping[str, float]) -> Vehicle:
     """Return `vehicle` with numbers of `CHANGES` times their factors; the rod keeps its shape."""
     new: dict[str, Any] = {name: getattr(vehicle, name) * np.float64(factor) for name, factor in factors.items()}
     if "rotor_limits" in factors:
         least, most = vehicle.rotor_limits
         new["rotor_limits"] = (least, most * factors["rotor_limits"])
-    return vehicle.replace(**new | stretched(vehicle, factors.get("bob_mass", 1.0), factors.get("rod_length", 1.0)))
+    return vehicle.replace(**new | stretch(vehicle, factors.get("bob_mass", 1.0), factors.get("rod_length", 1.0)))
 
 
-def _flown(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed: int) -> Change:
+def _fly(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed: int) -> Change:
     """Fly the inverted law on the `vehicle` changed by `factors`, from random starts."""
-    new = changed(vehicle, factors)
+    new = change(vehicle, factors)
     told = ", ".join(f"{CHANGES[name][1]} (× {factor:g}, {_number(new, name)})" for name, factor in factors.items())
     if feasibility(plant.true_vehicle(new), plant.delay).impossible:
         return Change(dict(factors), told, 0, RUNS)
@@ -174,6 +174,6 @@ def _number(vehicle: Vehicle, name: str) -> str:
     return f"{value:.3g} {unit}"
 
 
-def _told(flown: Ensemble) -> str:
+def _describe(flown: Ensemble) -> str:
     count = Count(int(flown.success.sum()), len(flown))
     return f"{count.describe()}, {flown.percentile('excursion', 50):.3g} m off in the median"

@@ -12,7 +12,7 @@ from flypend.flight.request import Flight
 from flypend.model import Vehicle
 from flypend.plants import Sampled, as_sampled
 from flypend.plants.bands import check_bands, draw_world
-from flypend.studies.compare import fly_each, joined, shared
+from flypend.studies.compare import fly_each, join_ensembles, split_flight
 
 DRAWS = 8
 
@@ -38,11 +38,11 @@ def fly_within(
     `workers` as in `simulate_ensemble`; `progress` is called with (runs begun, all). Raises InputError without bands.
     """
     worlds = list(worlds_within(flight.vehicle, as_sampled(flight.plant), seed).values())
-    parts = {str(place): part for place, part in enumerate(shared(flight, worlds))}
+    parts = {str(place): part for place, part in enumerate(split_flight(flight, worlds))}
     begun = dict.fromkeys(parts, 0)
 
     def tell(name: str, done: int, total: int) -> None:
         begun[name] = done
         progress(sum(begun.values()), flight.runs)
 
-    return joined(list(fly_each(parts, workers, tell).values()))
+    return join_ensembles(list(fly_each(parts, workers, tell).values()))

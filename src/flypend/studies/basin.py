@@ -23,7 +23,7 @@ from flypend.flight.tasks import free_starts, random_hanging
 from flypend.geometry import Numbers
 from flypend.laws import BoundLaw, almost_global, almost_global_lag, inverted
 from flypend.laws.certified import CertifiedSet
-from flypend.laws.lag import leading
+from flypend.laws.lag import lead_law
 from flypend.model import State, Vehicle
 from flypend.plants import Ideal
 from flypend.studies.starts import check_starts
@@ -88,7 +88,7 @@ def measure_basin(
     check_starts(runs, seed)
     errors.check_kind("lag", lag, bool)
     draw = DRAWS[errors.one_of("starts", starts, DRAWS)]
-    law = (leading(inverted()) if lag else inverted()).bind(vehicle)
+    law = (lead_law(inverted()) if lag else inverted()).bind(vehicle)
     progress("proving the certified set", 0, 1)
     certified = (almost_global_lag() if lag else almost_global()).bind(vehicle).certified_set()
     times, touched, again = [], 0, 0
@@ -96,11 +96,11 @@ def measure_basin(
         progress("flying", begin, runs)
         rng = np.random.default_rng((seed, begin // CHUNK))
         batch = free_starts(vehicle, draw, rng, CHUNK)[: runs - begin]
-        found, _ = _entering(law, certified, batch, *PASSES[0])
+        found, _ = _find_entry(law, certified, batch, *PASSES[0])
         left = np.flatnonzero(np.isnan(found))
         if len(left):
             again += len(left)
-            found[left], touching = _entering(law, certified, batch[left], *PASSES[1])
+            found[left], touching = _find_entry(law, certified, batch[left], *PASSES[1])
             touched += int(np.sum(touching & np.isnan(found[left])))
         times.append(found)
     progress("flying", runs, runs)
@@ -114,7 +114,7 @@ def measure_basin(
     )  # fmt: skip
 
 
-def _entering(
+def _find_entry(
     law: BoundLaw, certified: CertifiedSet, starts: State, until: float, loose: float, tight: float
 ) -> tuple[Numbers, Numbers]:
     """Return when flights from `starts` (n,) are inside for sure (n,), s, and which of them end at a touch (n,).

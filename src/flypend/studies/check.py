@@ -17,7 +17,7 @@ from flypend.flight.feasibility import Feasibility, feasibility
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, inverted
-from flypend.laws.located import LawError
+from flypend.laws.law_error import LawError
 from flypend.model import State, Vehicle
 from flypend.planning.planner import plan_ensemble
 from flypend.planning.result import PlanEnsemble

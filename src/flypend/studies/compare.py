@@ -17,7 +17,7 @@ from flypend import errors, plants, signals
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel, kernel_of
-from flypend.flight.labelled import dataset, variable
+from flypend.flight.labels import dataset, variable
 from flypend.flight.request import Flight, bound_to, check_batch, check_judged
 from flypend.laws import AnyLaw, Controller, Law
 from flypend.model import State, Vehicle
@@ -25,7 +25,7 @@ from flypend.model.state import SHAPES
 from flypend.plants import AnyPlant
 from flypend.settings.laws import absolute, table_of
 from flypend.settings.runfile import plant_of, run_of
-from flypend.signals.waiting import result_of, threads
+from flypend.signals.polling import result_of, threads
 
 if TYPE_CHECKING:
     import xarray
@@ -97,16 +97,16 @@ def compare(
     flights = {
         (name, str(place)): part
         for name, flight in flights_of(vehicle, laws, starts, duration).items()
-        for place, part in enumerate(shared(flight, worlds))
+        for place, part in enumerate(split_flight(flight, worlds))
     }
     ensembles = fly_each(flights, workers, lambda key, done, total: progress(key[0], done, total))
     parts: dict[str, list[Ensemble]] = {}
     for (name, _), ensemble in ensembles.items():
         parts.setdefault(name, []).append(ensemble)
-    return Comparison({name: joined(some) for name, some in parts.items()})
+    return Comparison({name: join_ensembles(some) for name, some in parts.items()})
 
 
-def shared(flight: Flight, worlds: Sequence[AnyPlant]) -> list[Flight]:
+def split_flight(flight: Flight, worlds: Sequence[AnyPlant]) -> list[Flight]:
     """Return the parts of `flight` that fly through each of `worlds`. A run has the noise of its place in `flight`."""
     if not worlds:
         raise InputError("plant", "a plant, or several", "none")
@@ -120,7 +120,7 @@ def share_ends(runs: int, worlds: int) -> list[int]:
     return [runs * place // worlds for place in range(worlds + 1)]
 
 
-def joined(parts: Sequence[Ensemble]) -> Ensemble:
+def join_ensembles(parts: Sequence[Ensemble]) -> Ensemble:
     """Return ensembles of one law on one vehicle, without samples, as one."""
     if len(parts) == 1:
         return parts[0]
@@ -215,7 +215,7 @@ def files_of_failures(
         ends = share_ends(len(ensemble), len(drawn)) if drawn else [0]
         for run in np.flatnonzero(~ensemble.success)[:MOST_KEPT]:
             start = ensemble.starts[run]
-            own = differing(drawn[np.searchsorted(ends, run, "right") - 1], base) if drawn else {}
+            own = differing_fields(drawn[np.searchsorted(ends, run, "right") - 1], base) if drawn else {}
             found[f"{_plain(name)}-{run}"] = {
                 "vehicle": ensemble.vehicle.to_dict(),
                 "law": table,
@@ -235,7 +235,7 @@ def fly_again(runs: Mapping[str, Any], folder: Path, progress: Any = lambda *_: 
         fly(run_of(dict(content)).flight).save(folder / f"{name}.nc")
 
 
-def differing(plant: AnyPlant, base: AnyPlant) -> dict[str, Any]:
+def differing_fields(plant: AnyPlant, base: AnyPlant) -> dict[str, Any]:
     """Return the fields in which `plant` differs from `base`, as a run file has them."""
     found = {entry.name: getattr(plant, entry.name) for entry in fields(plant)}
     changed = {name: value for name, value in found.items() if value != getattr(base, name)}

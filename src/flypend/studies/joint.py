@@ -161,7 +161,7 @@ class Errors:
         changes: dict[str, Any] = {}
         for name, value in self._of_plant.items():
             if scale := scales.get(name):
-                changes[name] = _limited(name, scale * np.asarray(value)).tolist()
+                changes[name] = _limit(name, scale * np.asarray(value)).tolist()
         if plant.sensors is not None:
             wrong = {name: _grown(name, value, scales.get(name, 0.0)) for name, value in self._defects.items()}
             changes["sensors"] = plant.sensors.replace(**wrong)
@@ -185,10 +185,10 @@ class Errors:
         written, drawn = self._written(name), self._drawn[name]
         if np.all(written > 0) and np.all(drawn > 0) and name not in ("sag", "delay"):
             return written * (drawn / written) ** scale
-        return _limited(name, written + scale * (drawn - written))
+        return _limit(name, written + scale * (drawn - written))
 
 
-def _limited(name: str, value: Any) -> Any:
+def _limit(name: str, value: Any) -> Any:
     return np.clip(value, 0.0, LIMITS[name]) if name in LIMITS else value
 
 
@@ -306,7 +306,7 @@ def _fly_tasks(
             )  # fmt: skip
             if name == "pokes":
                 one = one.replace(duration=2 * POKE_PERIOD, times=np.arange(0.0, 2 * POKE_PERIOD, SAMPLE))
-            found[name] = _counted(one, _stand_of if name == "pokes" else count_of)
+            found[name] = _count(one, _stand_of if name == "pokes" else count_of)
         return found
 
     found = for_each(flight, fly, range(len(drawn)), partial(progress, "all errors at once"))
@@ -325,10 +325,10 @@ def _stand_of(poked: Flight) -> Count:
 
 def _fly(flight: Flight, worlds: Sequence[Sampled], progress: Callable[[int, int], Any]) -> list[Count]:
     """Fly every start of `flight` in each of `worlds`."""
-    return for_each(flight, lambda world: _counted(flight.through(world)), worlds, progress)
+    return for_each(flight, lambda world: _count(flight.through(world)), worlds, progress)
 
 
-def _counted(flight: Flight, count: Callable[[Flight], Count] = count_of) -> Count:
+def _count(flight: Flight, count: Callable[[Flight], Count] = count_of) -> Count:
     """Return the `count` of a `flight`: none if such a vehicle cannot fly."""
     try:
         return count(flight)

@@ -15,7 +15,7 @@ from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
 from flypend.plants.defects import NEEDS
 from flypend.plants.sensors import sensors_called
-from flypend.studies.compare import Comparison, differing, flights_of, fly_each
+from flypend.studies.compare import Comparison, differing_fields, flights_of, fly_each
 
 if TYPE_CHECKING:
     import xarray
@@ -86,7 +86,7 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
     found = dict(RUNGS)
     weak = (1.0,) * (len(vehicle.rotor_spins) - 1) + (0.8,)
     found["one rotor -20 %"] = ROTORS.replace(strength=weak)
-    known = () if vehicle.air is None else vehicle.air.known()
+    known = () if vehicle.air is None else vehicle.air.active()
     found |= {name.replace("_", " "): ROTORS.replace(air=(name,)) for name in known}
     if vehicle.body is not None:
         found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
@@ -125,7 +125,7 @@ def together(names: Sequence[str], rungs: Mapping[str, AnyPlant]) -> Sampled:
         plant = rungs[errors.one_of("--rung", name, rungs)]
         if not isinstance(plant, Sampled):
             raise InputError("--rung", "rungs with numbers", repr(name))
-        for field, value in differing(plant, ROTORS).items():
+        for field, value in differing_fields(plant, ROTORS).items():
             before = changes.get(field, {})
             if field in changes and (field != "mismatch" or before.keys() & value.keys()):
                 raise InputError("--rung", "rungs that change different numbers", f"{field} twice in {names}")

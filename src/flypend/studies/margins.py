@@ -17,7 +17,7 @@ from flypend.flight.request import Flight
 from flypend.model import Vehicle
 from flypend.plants import MOTION_CAPTURE, Noise, Sampled
 from flypend.plants.plant import LONGEST_DELAY, MOST_IN_TRANSIT
-from flypend.signals.waiting import result_of, threads
+from flypend.signals.polling import result_of, threads
 
 LEAST_RATE = 0.9  # success rate at which a margin ends
 # A search stops once the boundary is known to this share of it, or to be below this share of its first step.

@@ -283,13 +283,13 @@ class _Task:
     def costs(self, points: Any, workers: int | None) -> Any:
         """Return the mean cost of each of `points`, all flown in one call from the tuning starts."""
         values = np.array([list(self.gains(point).values()) for point in points])
-        columns = self._flown(values, self.runs, cube.TUNED, workers)
+        columns = self._fly(values, self.runs, cube.TUNED, workers)
         return self.objective.cost(columns, self.study.flight.duration).mean(axis=1)
 
     def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
         """Return the statistics of `gains` on the first `MOST_REPORTED` starts of the study."""
         runs = min(self.study.samples, MOST_REPORTED)
-        columns = self._flown(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
+        columns = self._fly(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
         success = columns["success"]
         low, high = wilson(int(success.sum()), runs)
         settled = columns["settling"][success]
@@ -304,7 +304,7 @@ class _Task:
             "excursion_p95": float(np.percentile(np.nan_to_num(columns["excursion"], nan=np.inf), 95)),
         }
 
-    def _flown(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
+    def _fly(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
         """Metrics (k, runs) of `runs` runs under each of k rows of gains `values`, on each world in turn."""
         flight = self.study.flight
         worlds: list[AnyPlant] = [flight.plant]

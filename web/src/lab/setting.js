@@ -95,7 +95,7 @@ function filled(put, value) {
   return Object.fromEntries(Object.entries(put).map(([key, entry]) => [key, filled(entry, value)]));
 }
 
-/** What machine code is for: vehicle, law and plant, whatever their numbers, as flypend.lab.alone names it. An address may lack them. */
+/** What machine code is for: vehicle, law and plant, whatever their numbers, as flypend.lab.standalone names it. An address may lack them. */
 export const kind = ({ vehicle, law, plant }) =>
   [vehicle?.base, vehicle?.mount ?? "gimbal", law.name, plant?.base, (plant?.base !== "ideal" && plant?.sensors) || "perfect"].join("/");
 

@@ -19,7 +19,7 @@ from flypend.building import building
 from flypend.compile import cache
 from flypend.compile.llvm.loops import link
 from flypend.compile.llvm.target import Target, native
-from flypend.signals.waiting import call_in_thread
+from flypend.signals.polling import call_in_thread
 
 # Rooms that stand after those that write machine code, and can change it by no more than what is in its key.
 ABOVE = frozenset(("export", "paper", "settings", "studies", "pictures", "report", "lab", "cli"))

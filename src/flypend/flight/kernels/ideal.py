@@ -22,7 +22,7 @@ from flypend.compile.problem import Judging, Problem
 from flypend.compile.program import Program, lower
 from flypend.errors import one_of
 from flypend.flight.criterion import REDUCTIONS, Criterion, gauge, gauge_bounds
-from flypend.flight.kernels.flown import Flown, Kernel, Progress, from_queue, in_order, inputs_of
+from flypend.flight.kernels.results import Flown, Kernel, Progress, from_queue, in_order, inputs_of
 from flypend.flight.kernels.stopping import Word
 from flypend.flight.request import Tolerances
 from flypend.flight.touch import touch_of

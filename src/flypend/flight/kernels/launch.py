@@ -11,8 +11,8 @@ from flypend.building import builds
 from flypend.compile.llvm import runge_kutta
 from flypend.compile.numeric import distinct
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import STATUS, Flown, Kernel, Progress, inputs_of
 from flypend.flight.kernels.ideal import IdealKernel, Moments, call, ideal_kernel
+from flypend.flight.kernels.results import STATUS, Flown, Kernel, Progress, inputs_of
 from flypend.flight.kernels.sampled import SampledKernel, sampled_kernel
 from flypend.flight.kernels.stopping import heard
 from flypend.flight.outcome import LEFT, NOT_ENOUGH, UNDEFINED, Outcome

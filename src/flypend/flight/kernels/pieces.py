@@ -28,8 +28,8 @@ from flypend.compile.problem import Resuming, SampledProblem
 from flypend.compile.program import lower
 from flypend.errors import InputError
 from flypend.flight.criterion import Criterion
-from flypend.flight.kernels.flown import in_order, inputs_of
 from flypend.flight.kernels.launch import outcome_of
+from flypend.flight.kernels.results import in_order, inputs_of
 from flypend.flight.kernels.sampled import ARGUMENT_KINDS, JUDGED, sampled_problem, structure, write_sampled
 from flypend.flight.outcome import Outcome
 from flypend.model import State

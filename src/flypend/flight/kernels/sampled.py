@@ -26,7 +26,7 @@ from flypend.compile.program import Program, lower
 from flypend.compile.routine import lower_calls
 from flypend.errors import array
 from flypend.flight.criterion import EXTENTS, REDUCTIONS, Criterion, observe
-from flypend.flight.kernels.flown import Flown, Kernel, Progress, in_order, in_pieces, inputs_of
+from flypend.flight.kernels.results import Flown, Kernel, Progress, in_order, in_pieces, inputs_of
 from flypend.flight.kernels.stopping import Word
 from flypend.flight.sampled import is_random, number_of_ticks
 from flypend.flight.touch import touch_of
@@ -46,7 +46,7 @@ from flypend.plants.mujoco import MAX_FORCE, MuJoCoWorld, filter_lag, from_mujoc
 from flypend.plants.mujoco_world import STEP_NUMBERS, motors, step_numbers, surroundings
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Plant, Wind
-from flypend.plants.schedule import steps_in, within_period
+from flypend.plants.schedule import segments_within, steps_in
 from flypend.plants.sensing import START_TICK, first_estimate, first_memory, sensing, start_draws
 
 WIDTH = 8
@@ -80,7 +80,7 @@ class SampledKernel(Kernel):
     def through(self, plant: Plant) -> SampledKernel:
         """Reuse the machine code for another `plant`. Raises ValueError if its `structure` differs."""
         other = replace(self.loop, plant=plant)
-        if _compiled(other) != _compiled(self.loop) or _mujoco_filters(other) != _mujoco_filters(self.loop):
+        if _structure_of(other) != _structure_of(self.loop) or _mujoco_filters(other) != _mujoco_filters(self.loop):
             raise ValueError("a plant of the same structure is needed")
         return replace(self, loop=other)
 
@@ -175,7 +175,7 @@ def _serves_any_machine(loop: Loop) -> bool:
     return loop.sampled.engine == "equations" and not loop.touches and is_wrong(loop.sampled)
 
 
-def _compiled(loop: Loop) -> tuple[Plant, bool]:
+def _structure_of(loop: Loop) -> tuple[Plant, bool]:
     """Return the `structure` of the plant of `loop`, and whether it serves any machine."""
     common = _serves_any_machine(loop)
     return structure(as_nominal(loop.sampled) if common else loop.sampled), common
@@ -204,7 +204,7 @@ def _timing(true: Vehicle, plant: Plant, duration: float) -> Numbers:
 
 def _segments(plant: Plant) -> list[tuple[int, float, int]]:
     """Return the segments of a control period: age of the command, duration (s), steps."""
-    segments = within_period(plant.delay, 1 / plant.rate)
+    segments = segments_within(plant.delay, 1 / plant.rate)
     return [(age, while_, steps_in(while_, plant)) for age, while_ in segments]
 
 
@@ -214,7 +214,7 @@ def sampled_kernel(loop: Loop, criterion: Criterion) -> SampledKernel:
     Lead, latency and observer of the flight computer may not be among the gains that differ between runs. Raises
     InputError if a gain is unknown, or the law has operations that cannot be compiled.
     """
-    compiled, common = _compiled(loop)
+    compiled, common = _structure_of(loop)
     if loop.sampled.engine == "mujoco":
         # Rotors with a lag, whatever it is, are MuJoCo's filters; those without are not.
         compiled = compiled.replace(lag=float(_is_filtered(loop)))

@@ -16,7 +16,7 @@ from flypend.geometry import norm
 from flypend.studies.sweep.axes import ANGLES
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.design import design
-from flypend.studies.sweep.store import existing
+from flypend.studies.sweep.store import find_store
 from flypend.studies.sweep.study import Study
 
 # Target number of runs per cell, and bounds on the number of cells per side.
@@ -60,7 +60,7 @@ class Runs:
     """The runs in the store at `path`, for maps. Raises InputError if there are none."""
 
     def __init__(self, path: str | Path) -> None:
-        self._store = existing(path)
+        self._store = find_store(path)
         self.study: Study = self._store.study
         self._numbers = self._store.numbers()
         self.names = self._store.columns

@@ -54,7 +54,7 @@ def fly_chunk(text: str, number: int, program: str) -> dict[str, Any]:
 
 def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
     """Return the columns of runs `first` to `last` (exclusive) of `study`, flown on one core."""
-    drawn, requests = _asked(study, first, last)
+    drawn, requests = _requests(study, first, last)
     parts = [fly_many(flight, workers=1) for flight in requests]
     judged = [flown.columns for flown in parts]
     columns = {name: np.concatenate([some[name] for some in judged]) for name in judged[0]}
@@ -68,7 +68,7 @@ def fly_range(study: Study, first: int, last: int) -> dict[str, Any]:
 
 
 @builds
-def _asked(study: Study, first: int, last: int) -> tuple[Design, list[Flight]]:
+def _requests(study: Study, first: int, last: int) -> tuple[Design, list[Flight]]:
     """Return runs `first` to `last` (exclusive) of `study`, and their requests."""
     drawn = design(study, first, last)
     return drawn, flights(study, drawn, first)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from flypend import errors, signals
 from flypend.flight.kernels.stopping import interruptible, join
-from flypend.signals import waiting
+from flypend.signals import polling
 from flypend.studies.sweep import cluster
 from flypend.studies.sweep.chunk import fly_chunk, fly_range, program_digest
 from flypend.studies.sweep.claim import check_place, lock_name
@@ -130,10 +130,10 @@ def _fly_numbers(
     """Yield number and result of each chunk, in the order in which they end."""
     with ExitStack() as stack:
         if processes:
-            submit, stop = stack.enter_context(waiting.processes(workers)), None
+            submit, stop = stack.enter_context(polling.processes(workers)), None
         else:
-            submit, stop = stack.enter_context(waiting.threads(workers)).submit, stack.enter_context(interruptible())
-        for call in waiting.as_they_come([submit(_fly, text, number, program, stop) for number in numbers]):
+            submit, stop = stack.enter_context(polling.threads(workers)).submit, stack.enter_context(interruptible())
+        for call in polling.as_they_come([submit(_fly, text, number, program, stop) for number in numbers]):
             yield call.result()
 
 

@@ -46,7 +46,7 @@ class Store:
         self.attributes = dict(group.attrs)
         self.study: Study = _study_in(path, self.attributes)
         self._fields = layout.columns_of(self.study)
-        self._arrays = self._opened(writable)
+        self._arrays = self._open(writable)
         self._marks: Any = self._arrays.pop(MARKS)
 
     @property
@@ -59,7 +59,7 @@ class Store:
 
         Raises InputError if a column is not as a reader expects it, a file cannot be written, or the store is gone.
         """
-        self._checked(columns)
+        self._check(columns)
         mark = self._digest(number, columns)
         try:
             for name in self.columns:
@@ -85,10 +85,10 @@ class Store:
         if not sound:
             wanted = f"chunk {number} as it was written (flypend sweep flies it again)"
             raise InputError(str(self.path), wanted, "a chunk that does not match its digest")
-        self._checked(columns)
+        self._check(columns)
         return columns if names is None else {name: columns[name] for name in names}
 
-    def _checked(self, columns: Mapping[str, Any]) -> None:
+    def _check(self, columns: Mapping[str, Any]) -> None:
         """Raise InputError unless `columns` are as those of a chunk of the study."""
         try:
             found = check_arrays(self._fields, columns)
@@ -99,13 +99,13 @@ class Store:
             raise InputError(str(self.path), "the cause 0 for success (--force replaces the store)", "others")
 
     def numbers(self) -> list[int]:
-        """Return the numbers of the chunks that have been flown, as `marked` tells, without asking for every chunk."""
+        """Return the numbers of the chunks for which `is_flown`, without asking for every chunk."""
         folder = self.path / MARKS / "c"
         names = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
         found = sorted(int(name) for name in names if _NUMBER.fullmatch(name))
-        return [number for number in found if number < self.study.chunks and self.marked(number)]
+        return [number for number in found if number < self.study.chunks and self.is_flown(number)]
 
-    def marked(self, number: int) -> bool:
+    def is_flown(self, number: int) -> bool:
         """Whether chunk `number` has been flown: it has a mark, which is perhaps unreadable."""
         try:
             return self._mark(number) != 0
@@ -115,7 +115,7 @@ class Store:
     def whole(self, number: int) -> bool:
         """Whether chunk `number` has been flown and matches its mark."""
         try:
-            return self.marked(number) and bool(self.read(number))
+            return self.is_flown(number) and bool(self.read(number))
         except InputError:
             return False
 
@@ -145,7 +145,7 @@ class Store:
         if found != self.attributes["id"]:
             raise InputError(str(self.path), "the store that this sweep has begun", "nothing, or another one")
 
-    def _opened(self, writable: bool) -> dict[str, Any]:
+    def _open(self, writable: bool) -> dict[str, Any]:
         """The arrays by name, their metadata compared with those of a new store."""
         model, files = layout.model(self.study)
         found = {}
@@ -203,12 +203,12 @@ def open_store(path: str | Path, study: Study, program: str, versions: Mapping[s
     clear(path)
     if not path.exists():
         layout.create(path, study, {**attributes, "id": uuid4().hex, "seal": _seal(attributes)})
-    store = existing(path, writable=True)
+    store = find_store(path, writable=True)
     _check_same(path, store.attributes, attributes)
     return store
 
 
-def existing(path: str | Path, *, writable: bool = False) -> Store:
+def find_store(path: str | Path, *, writable: bool = False) -> Store:
     """Open the store at `path`. Raises InputError unless a sweep has written it, and, to read, its metadata are whole.
 
     `writable` restores damaged metadata; the caller then holds the lock.

@@ -18,9 +18,9 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, check_judged
 from flypend.flight.sampled import is_random
 from flypend.laws import BoundLaw, Controller
-from flypend.laws.named import THEOREM_1
+from flypend.laws.by_name import THEOREM_1
 from flypend.model import Vehicle
-from flypend.model.shipped import vehicle_table
+from flypend.model.by_name import vehicle_table
 from flypend.plants import AnyPlant, Ideal, Sampled
 from flypend.settings.laws import absolute, law_from, law_table, table_of
 from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, record_at, shallow, start_of, table_at

@@ -21,7 +21,7 @@ TITLE, CHAPTERS = "flypend laboratory", "How a quadrotor throws and catches a ro
 Tell = Callable[[str, int, int], Any]
 
 
-def page_alone(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *, tell: Tell = lambda *_: None) -> str:
+def lab_page(vehicles: Sequence[str] = VEHICLES, laws: Sequence[str] = LAWS, *, tell: Tell = lambda *_: None) -> str:
     """Return the laboratory as HTML that computes its flights itself, offline.
 
     Parameters

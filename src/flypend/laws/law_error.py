@@ -74,7 +74,7 @@ def wrench_of(answer: Any, function: Any, name: str) -> Wrench:
     if isinstance(found, Wrench):
         return found
     told = f"it returns {type(answer).__name__}, not a Wrench: return flypend.Wrench(thrust, moment)"
-    raise LawError(beginning(innermost(function)), name, told)
+    raise LawError(location(innermost(function)), name, told)
 
 
 def law_error(error: BaseException, function: Any, name: str) -> LawError:
@@ -111,7 +111,7 @@ def file_of(function: Any) -> str:
     return getattr(code, "co_filename", "")
 
 
-def beginning(function: Any) -> str:
+def location(function: Any) -> str:
     """Return file:line where a function begins."""
     code = getattr(inspect.unwrap(function), "__code__", None)
     return f"{relative_path(code.co_filename)}:{code.co_firstlineno}" if code else repr(function)
@@ -123,4 +123,4 @@ def check_finite(wrenches: Any, function: Any, name: str) -> None:
     if not np.any(np.all(finite, axis=1)):
         part, value = ("thrust", wrenches[0][0]) if not finite[0][0] else ("moment", wrenches[0][1:])
         said = f"its {part} is {value}, as in every state that is tried: expected finite numbers"
-        raise LawError(beginning(innermost(function)), name, said)
+        raise LawError(location(innermost(function)), name, said)

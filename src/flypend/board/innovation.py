@@ -5,8 +5,8 @@ from __future__ import annotations
 import casadi as ca
 
 from flypend.board import error_state as errors
+from flypend.board.accelerometer import force_of
 from flypend.board.error_state import Reading
-from flypend.board.felt import force_of
 from flypend.board.history import REACH, History, finds_latency
 from flypend.geometry import Matrix, Numbers, Scalar, Vector, cross, parallel_transport, unit, vee
 from flypend.model import State, Vehicle

@@ -14,7 +14,7 @@ from flypend.files.netcdf import Variable, read_netcdf, write_netcdf
 from flypend.files.reading import parse_json
 from flypend.files.schema import Field, check_attributes, check_variables, digest
 from flypend.files.whole import whole_file
-from flypend.flight.labelled import AXES, DIMENSIONS, UNITS
+from flypend.flight.labels import AXES, DIMENSIONS, UNITS
 from flypend.flight.outcome import STATUSES, Outcome
 from flypend.model import State, Vehicle
 from flypend.model.state import SHAPES

@@ -9,8 +9,8 @@ from test_lab_page import expect_flight, setting, slider
 
 import flypend as fp
 from benchmarks.frames import AT_REST
-from flypend.lab.alone import chapters_page, page_alone
 from flypend.lab.controls import figures, offer, story
+from flypend.lab.standalone import chapters_page, lab_page
 from tests.browser import shown, until
 from tests.few import slow
 
@@ -20,7 +20,7 @@ WIDE = {"width": 1280, "height": 800}
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("alone") / "lab.html"
-    path.write_text(page_alone(("hehn2011", "nayak2018"), ("inverted", "lqr", "corrected")), encoding="utf-8")
+    path.write_text(lab_page(("hehn2011", "nayak2018"), ("inverted", "lqr", "corrected")), encoding="utf-8")
     return path
 
 
@@ -191,16 +191,16 @@ def test_axe_finds_nothing(visit, axe):
 
 def test_unknown_choices_are_told():
     with pytest.raises(fp.InputError, match="vehicle"):
-        page_alone(("balloon",))
+        lab_page(("balloon",))
     with pytest.raises(fp.InputError, match="law"):
-        page_alone(laws=("mine",))
+        lab_page(laws=("mine",))
     with pytest.raises(fp.InputError, match="vehicles"):
-        page_alone(())
+        lab_page(())
 
 
 def test_the_first_flight_is_one_that_can_be_flown(chromium, tmp_path):
     path = tmp_path / "one.html"
-    path.write_text(page_alone(("nayak2018",), ("corrected",)), encoding="utf-8")
+    path.write_text(lab_page(("nayak2018",), ("corrected",)), encoding="utf-8")
     page = chromium.new_page()
     page.goto(path.as_uri())
     shown(page)

@@ -7,7 +7,7 @@ model lacks does not. With the modelled thrust f, the accelerometer of a body wi
 
 each period. A Kalman filter follows s and the third component of d jointly, and the two others by themselves. While f
 hardly changes, as in hover, only the sum s f + d₃ is told, and the prior shares it; a manoeuvre tells both. The walk of
-d is that of `Sensors.following`: slow in hover, where the model is better than the accelerometer, and fast in a
+d is that of `Sensors.bandwidth`: slow in hover, where the model is better than the accelerometer, and fast in a
 manoeuvre, where it is worse, so that the motion follows what the accelerometer reads.
 
 A bias of the accelerometer is taken for a force. It gives itself away in hover: the pose is corrected against it again
@@ -93,7 +93,7 @@ def correct(
     felt: dict[str, Any] = RECORD.split(memory)
     assert sensors.accelerometer is not None
     noise = vehicle.M**2 * sensors.accelerometer.variance
-    walk = vehicle.M**2 * sensors.accelerometer.density(period) * sensors.following(departure) * period
+    walk = vehicle.M**2 * sensors.accelerometer.density(period) * sensors.bandwidth(departure) * period
     across, along = felt["across"] + walk, felt["along"] + walk
     doubt, shared = ca.fmin(felt["doubt"] + SCALE_WALK**2 * period, SCALE**2), felt["shared"]
     gain = fresh * across / (across + noise)

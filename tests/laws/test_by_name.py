@@ -1,4 +1,4 @@
-"""A law of the package is added by its file and a line in laws/named.py, as CONTRIBUTING.md says."""
+"""A law of the package is added by its file and a line in laws/by_name.py, as CONTRIBUTING.md says."""
 
 import os
 import shutil

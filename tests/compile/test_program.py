@@ -125,6 +125,18 @@ def test_divisions_by_one_value_share_its_reciprocal():
     np.testing.assert_allclose(evaluate(program, values)[0], np.array(function(values)).ravel(), rtol=1e-15)
 
 
+@pytest.mark.parametrize("x", [-2.0, 0.25])
+def test_a_branch_with_a_root_leaves_the_other_as_it_is(x):
+    program, function = program_of([ca.if_else(a > 0, ca.sqrt(a), 1 / a)], [a])
+    assert evaluate(program, [x])[0][0] == float(function(x))
+    squares = a * a + ca.exp(b)  # nowhere negative: 1/x is (1/√x)²
+    assert program_of([ca.sqrt(squares), 1 / ca.sqrt(squares), b / squares], [a, b])[0].counts()["div"] == 1
+
+
+def test_an_infinite_exponent_is_left_to_the_library():
+    assert operations_of(a ** ca.SX.inf(), a) == {"pow": 1}
+
+
 def test_what_no_output_needs_is_left_out():
     packed = ca.SX.sym("s", 3)
     function = ca.Function("f", [packed], [packed[0] + packed[1], ca.sin(packed[2])])

@@ -48,7 +48,8 @@ class Chain:
                 ca.MX.zeros(output.numel()) if gradient is None else gradient
                 for output, gradient in zip(outputs, given, strict=True)
             ]
-            back = self._reversed.setdefault(function.name(), _reverse(function))
+            if (back := self._reversed.get(function.name())) is None:
+                back = self._reversed[function.name()] = _reverse(function)
             for value, gradient in zip(inputs, back.call([*map(ca.MX, inputs), *filled]), strict=True):
                 if isinstance(value, ca.MX):
                     add(value, gradient)

@@ -103,6 +103,9 @@ FOLD: dict[str, Callable[..., float]] = {
 _COMMUTATIVE = {"add", "mul", "fmin", "fmax", "eq", "ne", "and", "or"}
 _CASADI = {getattr(ca, f"OP_{name.upper()}"): name for name in FOLD if name != "select"}
 _CASADI |= {ca.OP_IF_ELSE_ZERO: "select", ca.OP_CONSTPOW: "pow"}
+# Operations that are nowhere negative, and those that are not if none of their arguments is.
+_POSITIVE = {"sqrt", "fabs", "exp", "hypot", "acos", "lt", "le", "eq", "ne", "and", "or", "not"}
+_KEEPS_SIGN = {"add", "mul", "div", "fmin"}
 
 
 def lower(function: ca.Function) -> Program:
@@ -147,6 +150,7 @@ class _Builder:
         self.operations: list[Operation] = []
         self._known: dict[Any, int] = {}
         self._values: list[float | None] = []  # of constants
+        self._positive: list[bool] = []  # whether each is 0 or above, whatever the inputs
 
     def input(self, vector: int, entry: int) -> int:
         return self._put(Operation("input", (vector, entry)))
@@ -169,7 +173,7 @@ class _Builder:
             raise InputError("law", "operations that can be compiled", f"CasADi operation {code}")
         name = _CASADI[code]
         power = self._values[arguments[1]] if name == "pow" else None
-        if power is not None and power == round(power) and abs(power) <= 16:
+        if power is not None and power.is_integer() and abs(power) <= 16:
             return self._integer_power(a, int(power))
         return self.do(name, *arguments)
 
@@ -213,9 +217,9 @@ class _Builder:
         return reciprocal if self._values[a] == 1.0 else self.do("mul", a, reciprocal)
 
     def _reciprocal(self, number: int) -> int:
-        """1/x; the square of 1/√x if √x is known."""
+        """1/x; the square of 1/√x if √x is known, and x nowhere negative: else a branch without √x would lose 1/x."""
         root = self._known.get(("sqrt", (number,), (0.0).hex()))
-        if root is not None:
+        if root is not None and self._positive[number]:
             inverse = self._reciprocal(root)
             return self.do("mul", inverse, inverse)
         return self._put(Operation("div", (self.constant(1.0), number)))
@@ -284,7 +288,17 @@ class _Builder:
             self._known[known] = len(self.operations)
             self.operations.append(operation)
             self._values.append(operation.value if operation.name == "constant" else None)
+            self._positive.append(self._is_positive(*operation))
         return self._known[known]
+
+    def _is_positive(self, name: str, arguments: tuple[int, ...], value: float) -> bool:
+        if name in ("input", "constant"):
+            return name == "constant" and value >= 0.0
+        signs = [self._positive[number] for number in arguments]
+        if name in ("fmax", "select"):
+            return any(signs) if name == "fmax" else signs[1]
+        squared = name == "mul" and arguments[0] == arguments[1]
+        return name in _POSITIVE or squared or (name in _KEEPS_SIGN and all(signs))
 
 
 def drop_dead(program: Program) -> Program:

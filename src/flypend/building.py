@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import lru_cache, wraps
 from threading import RLock
 from typing import Any, TypeVar, cast
@@ -34,3 +35,23 @@ def built(maxsize: int | None) -> Callable[[F], F]:
         return cast("F", wraps(function)(builds(lru_cache(maxsize)(function))))
 
     return decorate
+
+
+@contextmanager
+def no_numbers() -> Iterator[None]:
+    """Let float() of a symbol raise TypeError: CasADi answers NaN, and an `if` on that always takes the same branch."""
+    import casadi as ca  # not by commands that build nothing
+
+    with building:
+        as_float = ca.SX.__float__
+
+        def refuse(expression: ca.SX) -> float:
+            if not expression.is_constant():
+                raise TypeError("a symbol is not a number, such as float() and math.sin() need")
+            return as_float(expression)  # type: ignore[no-any-return]
+
+        ca.SX.__float__ = refuse
+        try:
+            yield
+        finally:
+            ca.SX.__float__ = as_float

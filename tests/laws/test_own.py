@@ -200,3 +200,42 @@ def test_what_cannot_be_exported_says_where_and_why(tmp_path):
     assert not list(tmp_path.iterdir())
     fp.export_c(from_function(symbolic), VEHICLE, tmp_path / "c", check=False)
     assert "lift" in (tmp_path / "c" / "flypend_law.h").read_text(encoding="ascii")
+
+
+def hang_or_stand(t, state, vehicle):
+    return fp.Wrench(vehicle.weight * (1.5 if float(state.y[2]) < 0 else 1.0), np.zeros(3))
+
+
+def wait(t, state, vehicle):
+    return fp.Wrench(vehicle.weight * (1.5 if float(t) > 1 else 1.0), np.zeros(3))
+
+
+def hide(t, state, vehicle):
+    try:
+        far = bool(state.x[2] > 0.5)
+    except Exception:
+        far = False
+    return fp.Wrench(vehicle.weight * (1.5 if far else 1.0), np.zeros(3))
+
+
+class Integral:
+    total = 0.0
+
+    def __call__(self, t, state, vehicle):
+        self.total += 0.002 * (0.5 - state.x[2])
+        return fp.Wrench(vehicle.weight * (1 + self.total), np.zeros(3))
+
+
+@pytest.mark.parametrize("law", [hang_or_stand, wait, hide, Integral()])
+def test_a_law_that_symbols_do_not_say_is_not_compiled(law):
+    """float() of a symbol is NaN in CasADi: a branch on it would be lost without a word."""
+    made = fp.laws.from_function(law, name="mine")
+    assert isinstance(made, fp.Controller)
+    if law is hang_or_stand:
+        run = fp.simulate(fp.vehicle("hehn2011"), made, fp.State(y=(0, 0, -1)), 0.1, plant="ideal")
+        assert run.thrust[5] == pytest.approx(1.5 * run.vehicle.weight)
+
+
+def test_a_reference_that_branches_on_the_time_is_refused():
+    with pytest.raises(fp.InputError, match="reference"):
+        fp.laws.inverted(reference=lambda t: ca.vertcat(1.0 if float(t) > 1 else 0.0, 0, 0))

@@ -38,7 +38,8 @@ def regulator():
 
 
 def saved(path, nodes, constants, inputs=24, last="out"):
-    shapes = [helper.make_tensor_value_info(name, onnx.TensorProto.DOUBLE, None) for name in ("seen", last)]
+    rows = {"seen": (1, inputs), last: None}
+    shapes = [helper.make_tensor_value_info(name, onnx.TensorProto.DOUBLE, rows[name]) for name in rows]
     held = [tensor(np.asarray(value), name) for name, value in constants.items()]
     onnx.save(helper.make_model(helper.make_graph(nodes, "policy", shapes[:1], shapes[1:], held)), path)
     return path
@@ -149,6 +150,8 @@ def test_an_onnx_file_flies_as_the_same_law_by_hand(tmp_path):
     read, written = (fp.simulate(VEHICLE, each, START, 1.0) for each in (law, from_function(by_hand)))
     assert np.allclose(read.packed, written.packed, rtol=0, atol=1e-12)
     assert law.name == "mine"
+    alike = law_named(str(mlp(tmp_path / "one.onnx", mean=np.array(0.1), size=np.array(2.0))))  # a number for all
+    assert np.array_equal(fp.simulate(VEHICLE, alike, START, 1.0).packed, read.packed)
 
 
 @pytest.mark.parametrize("operator", ["Relu", "Sigmoid", "Softplus", "Softsign", "Elu", "LeakyRelu"])

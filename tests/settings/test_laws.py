@@ -202,6 +202,23 @@ def test_the_fingerprint_of_a_controller_changes_with_text_and_gains(here):
     assert fingerprint(law_named("laws/mine.py:numeric")) != before
 
 
+def test_the_fingerprint_of_a_controller_changes_with_what_it_reads(tmp_path):
+    weights, rng = tmp_path / "weights.txt", np.random.default_rng(0)
+
+    def reads(t, state):
+        return fp.Wrench(float(weights.read_text()) * float(state.y[2]), np.zeros(3))
+
+    def guesses(t, state):
+        return fp.Wrench(rng.normal(), np.zeros(3))
+
+    found = []
+    for text in ("1.0", "1.0", "1.5"):
+        weights.write_text(text)
+        found.append(fingerprint(fp.Controller(name="reads", function=reads)))
+    assert found[0] == found[1] != found[2]
+    assert len({fingerprint(fp.Controller(name="guesses", function=guesses)) for _ in range(2)}) == 1
+
+
 @pytest.mark.parametrize("name", ["late", "steers"])
 def test_a_mistake_in_a_ready_law_is_located_too(here, name):
     law = law_named(f"laws/mine.py:{name}")

@@ -6,12 +6,15 @@ import difflib
 import inspect
 import traceback
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import casadi as ca
 import numpy as np
 
+from flypend.building import no_numbers
 from flypend.errors import InputError
 from flypend.model import Wrench
 
@@ -48,7 +51,8 @@ class Located:
     def __call__(self, *arguments: Any, **gains: Any) -> Any:
         """Call the function. Raises LawError for any exception but InputError, and for an impossible wrench."""
         try:
-            result = self.function(*arguments, **gains)
+            with no_numbers() if isinstance(next(iter(arguments), None), ca.SX) else nullcontext():
+                result = self.function(*arguments, **gains)
         except (Exception, SystemExit) as error:  # a law must not end the program
             if isinstance(error, InputError) and not error.field.startswith("wrench"):
                 raise
@@ -82,10 +86,10 @@ def law_error(error: BaseException, function: Any, name: str) -> LawError:
     file = file_of(function)
     frames = traceback.extract_tb(error.__traceback__)
     frame = next((f for f in reversed(frames) if f.filename == file), frames[-1])
-    return LawError(f"{relative_path(frame.filename)}:{frame.lineno}", name, _said(error))
+    return LawError(f"{relative_path(frame.filename)}:{frame.lineno}", name, explain(error))
 
 
-def _said(error: BaseException) -> str:
+def explain(error: BaseException) -> str:
     """Return what an `error` of a law says, with the remedy where there is a usual one."""
     said = str(error)
     if isinstance(error, InputError):

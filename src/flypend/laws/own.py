@@ -44,8 +44,8 @@ FORMS = (("t", "state"), ("t", "state", "vehicle"), ("t", "state", "vehicle", "g
 # CasADi warns of NumPy functions on symbols. Here their results are checked against numbers, so no warning is needed.
 warnings.filterwarnings("ignore", message=r"\s*casadi: a numpy function", category=FutureWarning)
 EXPECTED = "a function of (t, state, vehicle, *, gain=default, ...)"
-# Each function is tried on a known vehicle in two states, where symbolic and numeric results must agree to this.
-_TRIED, _AGREEMENT = 2, 1e-9
+# In how many states each function is tried on a known vehicle; symbolic and numeric results must agree to this.
+_TRIED, _AGREEMENT = 8, 1e-9
 
 
 Steering = Callable[[float, State], Wrench]
@@ -195,12 +195,26 @@ def from_function(
 
 
 def fingerprint(controller: Controller) -> bytes:
-    """Return a digest of a `controller`: its name, settings and gains, and the text of its source file."""
+    """Return a digest of a `controller`: its name, settings and gains, the text of its source file, and some answers.
+
+    The answers tell of what it imports and reads; a law that does not repeat them is known by its text alone.
+    """
     function: Any = innermost(controller.steering or controller.function)
     file, code = Path(file_of(function)), getattr(function, "__code__", None)
     text = file.read_bytes() if file.is_file() else code.co_code if code else b""
     said = repr((controller.name, dict(controller.gains), controller.e3, controller.rate, controller.computer))
-    return hashlib.sha256(said.encode() + text).digest()
+    answers = {_answers(controller), _answers(controller)}
+    return hashlib.sha256(said.encode() + text + (answers.pop() if len(answers) == 1 else b"")).digest()
+
+
+def _answers(controller: Controller) -> bytes:
+    machine, times, states = _example()
+    try:
+        steer = controller.bind(machine).function
+        found = [steer(t, state) for t, state in zip(times, states, strict=True)]
+        return np.array([[wrench.thrust, *wrench.moment] for wrench in found], dtype=float).tobytes()
+    except Exception:  # it fails in some states, or has no wrench
+        return b""
 
 
 def is_factory(function: Callable[..., Any]) -> bool:
@@ -289,25 +303,33 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
 
     Raises LawError if it fails on both.
     """
-    machine, states = _example()
-    t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
-    answers: list[NDArray[Any]] = []
+    machine, times, states = _example()
+    refused: InputError | None = None
+    numbers: list[NDArray[Any]] = []
+    try:
+        for t, state in zip((*times, times[0]), (*states, states[0]), strict=True):
+            numbers.append(_numbers(call(t, state, machine, **gains), call))
+        if not np.array_equal(numbers.pop(), numbers[0], equal_nan=True):
+            return "it answers the same state differently when asked again"  # symbols would stay in what it remembers
+    except InputError as error:
+        if numbers:
+            return f"it fails in some states: {error}"
+        refused = error
+    time, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     failure: LawError | None = None
     try:
-        wrench = wrench_of(call(t, State.symbolic(packed), machine, **gains), call, call.name)
+        wrench = wrench_of(call(time, State.symbolic(packed), machine, **gains), call, call.name)
         stacked = ca.vertcat(ca.SX(wrench.thrust), ca.SX(wrench.moment))
-        symbolic = ca.Function("try", [t, packed], [ca.densify(stacked)])
-        answers = [np.array(symbolic(0.0, state.packed())).ravel() for state in states]
+        symbolic = ca.Function("try", [time, packed], [ca.densify(stacked)])
+        answers = [np.array(symbolic(t, state.packed())).ravel() for t, state in zip(times, states, strict=True)]
     except LawError as error:
         failure = error
     except Exception as error:  # the result is not an expression
         failure = LawError(location(call.function), call.name, f"its wrench is not made of symbols: {error}")
-    try:
-        numbers = [_numbers(call(0.0, state, machine, **gains), call) for state in states]
-    except InputError as error:
+    if refused is not None:
         if failure is None:
             return ""  # uses CasADi functions that accept symbols only
-        told = error if "SX" in failure.said or "an if on" in failure.said else failure
+        told = refused if "SX" in failure.said or "an if on" in failure.said else failure
         raise told from told.__cause__
     if failure is not None:
         return f"{failure.said}, {failure.where}"
@@ -317,9 +339,11 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
 
 
 @lru_cache(maxsize=1)
-def _example() -> tuple[Vehicle, tuple[State, ...]]:
-    states = State.random(np.random.default_rng(0), _TRIED)
-    return vehicle("hehn2011"), tuple(states[i] for i in range(_TRIED))
+def _example() -> tuple[Vehicle, tuple[float, ...], tuple[State, ...]]:
+    """Return a vehicle, and times (s) and states on which laws are tried: away from the goal, the rod up and down."""
+    rng = np.random.default_rng(0)
+    states = replace(State.random(rng, _TRIED), x=rng.normal(size=(_TRIED, 3)))
+    return vehicle("hehn2011"), (0.0, *rng.uniform(0, 5, _TRIED - 1).tolist()), tuple(states[i] for i in range(_TRIED))
 
 
 def _numbers(answer: Any, call: Located) -> NDArray[np.float64]:

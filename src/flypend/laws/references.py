@@ -9,7 +9,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.building import builds
+from flypend.building import builds, no_numbers
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Scalar, Vector
 
@@ -59,11 +59,12 @@ def check_reference(reference: Any, field: str = "reference") -> None:
 
 @builds
 def _try_reference(reference: Any, field: str) -> None:
-    what = "a function of time that gives a position (3,), such as laws.references.hover((0, 0, 1))"
+    what = "a function of time that gives CasADi's position (3, 1), such as laws.references.hover((0, 0, 1))"
     if not callable(reference):
         raise InputError(field, what, repr(reference)[:80])
     try:
-        answer = reference(ca.SX.sym("t"))
+        with no_numbers():
+            answer = reference(ca.SX.sym("t"))
     except Exception as error:
         raise InputError(field, what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
     if not isinstance(answer, ca.SX | ca.DM) or answer.shape != (3, 1):

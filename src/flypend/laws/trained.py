@@ -171,10 +171,11 @@ def read_onnx(path: Path) -> Network:
         constants = {one.name: onnx.numpy_helper.to_array(one) for one in graph.initializer}
     except Exception as error:  # of protobuf, of files with weights beside it, of the types of tensors
         raise InputError("network", "an ONNX file", f"{path}: {type(error).__name__}") from None
-    given = [one.name for one in graph.input if one.name not in constants]
+    given = [one for one in graph.input if one.name not in constants]
     if len(given) != 1 or len(graph.output) != 1:
         raise InputError("network", "one input and one output", f"{len(given)} and {len(graph.output)} in {path}")
-    chain = _Chain(given[0], constants)
+    sizes = given[0].type.tensor_type.shape.dim  # the last says how many numbers; 0 where the file leaves it open
+    chain = _Chain(given[0].name, constants, sizes[-1].dim_value if sizes else 0)
     for node in graph.node:
         chain.add(node, {one.name: onnx.helper.get_attribute_value(one) for one in node.attribute})
     if chain.last != graph.output[0].name:
@@ -183,10 +184,10 @@ def read_onnx(path: Path) -> Network:
 
 
 class _Chain:
-    """Layers, made of operators one after the other; `last` is the name of what the last one returns."""
+    """Layers, made of operators one after the other on `width` numbers; `last` is what the last one returns."""
 
-    def __init__(self, last: str, constants: dict[str, NDArray[Any]]) -> None:
-        self.last, self.constants, self.layers = last, constants, list[Layer]()
+    def __init__(self, last: str, constants: dict[str, NDArray[Any]], width: int) -> None:
+        self.last, self.constants, self.width, self.layers = last, constants, width, list[Layer]()
         self._limited = False
 
     def add(self, node: Any, attributes: Mapping[str, Any]) -> None:
@@ -234,7 +235,8 @@ class _Chain:
             return
         value = np.ravel(np.asarray(others[0], dtype=float))
         if not self.layers:
-            self._append(np.eye(len(value)), np.zeros(len(value)))
+            width = max(value.size, self.width)  # one number may hold for all
+            self._append(np.eye(width), np.zeros(width))
         last = self.layers[-1]
         if last.activation != "identity":
             last = Layer(np.eye(len(last.b)), np.zeros(len(last.b)))

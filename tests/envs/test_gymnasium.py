@@ -42,7 +42,8 @@ def test_a_picture_shows_the_rod_where_it_is(name):
     assert (down < 240) == (y[2] > 0)
     assert np.array_equal(image, world.render())
     for _ in range(20):
-        world.step(world.action_space.low)
+        if world.step(world.action_space.low)[2]:
+            break
     assert not np.array_equal(image, world.render())
 
 
@@ -226,3 +227,19 @@ def test_pictures_can_be_what_is_observed():
     seen, _ = world.reset(seed=0)
     assert seen in world.observation_space
     assert seen.shape == (480, 480, 3)
+
+
+def test_a_single_world_that_has_ended_waits_for_a_reset():
+    world = World("balance")
+    world.reset(seed=0)
+    while not world.step(np.zeros(4))[2]:
+        pass
+    saved = world.save_state()
+    with pytest.raises(ResetNeeded):
+        world.step(np.zeros(4))
+    other = World("balance")
+    other.restore_state(saved)
+    with pytest.raises(ResetNeeded):
+        other.step(np.zeros(4))
+    world.reset()
+    world.step(np.zeros(4))

@@ -15,7 +15,7 @@ from gymnasium.utils.env_checker import check_env
 
 import flypend as fp
 from benchmarks import omnidrones_tasks
-from flypend.envs import DifferentiableWorlds, Randomisation, VectorWorlds, World, environment
+from flypend.envs import DifferentiableWorlds, Randomisation, VectorWorlds, World, balance, environment
 from flypend.envs.draws import Draws
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
@@ -83,9 +83,8 @@ def test_a_world_ends_on_its_floor():
     for floor in (None, -0.8):
         world = World("swing_up", plant=PHYSICS.replace(floor=floor))
         world.reset(seed=5)
-        ends[floor] = [world.step(np.full(4, -1, dtype=np.float32))[2] for _ in range(20)]
-    assert any(ends[-0.8])
-    assert not any(ends[None])
+        ends[floor] = any(world.step(np.full(4, -1, dtype=np.float32))[2] for _ in range(20))
+    assert ends == {None: False, -0.8: True}
 
 
 @pytest.mark.parametrize("task", OMNIDRONES, ids=lambda task: task.name)
@@ -623,6 +622,24 @@ def test_an_unknown_argument_is_told_what_there_is(kind):
     assert own | {"plant", "vehicle", "sensors", "turn_rate"} <= set(listed)
     assert len(set(listed)) == len(listed)
     assert ("history" in listed) == (kind is not DifferentiableWorlds)
+
+
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [
+        ("reward", lambda now: 1 - now.error.x**2),  # three numbers, of which a kernel would take one
+        ("reward", lambda now: 5.0 if float(now.time) > 0.2 else 1.0),  # CasADi: always 1
+        ("reward", lambda now: None),
+        ("ended", lambda now: now.error.x**2 > 0.01),
+        ("goal", lambda t, numbers: (ca.SX(2, 1), ca.SX(3, 1))),
+        ("shown", lambda now: now.state.R),
+        ("begin", lambda draws, vehicle: fp.State()),
+    ],
+)
+def test_a_task_that_answers_something_else_is_refused(name, function):
+    with pytest.raises(fp.InputError) as refused:
+        World(replace(balance(), **{name: function}))
+    assert refused.value.field == f"task.{name}"
 
 
 def test_a_task_may_bring_any_argument_of_its_environments():

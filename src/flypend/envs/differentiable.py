@@ -20,6 +20,7 @@ from flypend.envs.make import environment_for
 from flypend.envs.problem import Environment, Parts
 from flypend.errors import InputError
 from flypend.model.state import SIZE
+from flypend.plants.plant import check_seed
 
 
 class Stepped(NamedTuple):
@@ -72,8 +73,12 @@ class DifferentiableWorlds:
     def begin(self, seeds: Sequence[int]) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
         """Return memory (count, size) and observations (count, k) of new worlds, one per seed.
 
-        They are those of `VectorWorlds` with these seeds.
+        They are those of `VectorWorlds` with these seeds. Raises InputError unless these are integers from 0.
         """
+        if not isinstance(seeds, list | tuple | range | np.ndarray) or len(seeds) == 0:
+            raise InputError("seeds", "a sequence of integers", repr(seeds)[:80])
+        for seed in seeds:
+            check_seed("seeds", seed)
         worlds = Worlds(self.env, len(seeds), self.workers)
         worlds.begin(np.asarray(seeds, dtype=np.int64))
         memory = np.concatenate([np.zeros((len(seeds), 1)), worlds.part("state", self.size - 1)], axis=1)

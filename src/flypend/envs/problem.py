@@ -166,7 +166,10 @@ class Parts:
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        (low, high), (state, goal) = env.vehicle.rotor_limits, env.task.begin(draws, env.vehicle)
+        (low, high), begun = env.vehicle.rotor_limits, env.task.ask("begin", draws, env.vehicle)
+        if not (isinstance(begun, tuple) and len(begun) == 2 and isinstance(begun[0], State)):
+            raise InputError("task.begin", "a Begin: a State and the numbers of the goal", f"a {type(begun).__name__}")
+        state, goal = begun
         hover = ca.DM(np.full(n, np.clip(env.vehicle.weight / n, low, high)))
         asked = ca.vertcat(2 * ca.sum1(hover) / (n * high) - 1, ca.DM.zeros(3))  # the action that commands it
         if env.action == "rotors":
@@ -234,7 +237,7 @@ class Parts:
         if estimate:
             parts[0], parts[1] = estimated[:SIZE], estimated[SIZE : SIZE + env.rotors]
         state, numbers = State.symbolic(parts[0]), parts[-1]
-        x, x_dot = env.task.goal(t, numbers)
+        x, x_dot = env.task.ask("goal", t, numbers, rows=3)
         error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
         change = ca.SX.zeros(env.actions) if action is None else action - parts[2]
         reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
@@ -250,19 +253,19 @@ class Parts:
         env = self.env
         t, memory, now, parts = self._moment(known=True)
         low, high = env.vehicle.rotor_limits
-        here = env.task.goal(t, parts[-1])[0]
-        coming = [env.task.goal(t + ahead, parts[-1])[0] - here for ahead in env.task.ahead]
+        here = env.task.ask("goal", t, parts[-1], rows=3)[0]
+        coming = [env.task.ask("goal", t + ahead, parts[-1], rows=3)[0] - here for ahead in env.task.ahead]
         if env.attitude == "body":
             coming = [to_body(now.error, vector) for vector in coming]
         seen = observe_state(now.error, env.attitude)
         if env.observe == "all":
             rotors = 2 * (parts[1] - low) / (high - low) - 1
-            seen = ca.vertcat(seen, rotors, parts[2], *coming, env.task.shown(now))
+            seen = ca.vertcat(seen, rotors, parts[2], *coming, env.task.ask("shown", now))
         return ca.Function("observe", [t, memory], [ca.densify(seen)])
 
     def judge(self) -> ca.Function:
         """(time, memory, action) → (reward, ended)."""
         action = ca.SX.sym("a", self.env.actions)
         t, memory, now, _ = self._moment(action)
-        reward, ended = self.env.task.reward(now), self.env.task.ended(now)
+        reward, ended = (self.env.task.ask(name, now, rows=1) for name in ("reward", "ended"))
         return ca.Function("judge", [t, memory, action], [ca.densify(reward), ca.densify(ended)])

@@ -6,8 +6,10 @@ from typing import Any
 
 import gymnasium
 import numpy as np
+from gymnasium.error import ResetNeeded
 
 from flypend.envs.state import Stateful
+from flypend.errors import InputError
 from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
 from flypend.model import State
@@ -18,7 +20,7 @@ EVERY = np.ones(1, dtype=bool)  # of one world
 
 
 class World(Stateful, gymnasium.Env[Any, Any]):
-    """One world, bit-identical to world 0 of the vector environment with the same seed and actions.
+    """One world. With a seed it begins and flies bit-identically to world 0 of the vector environment.
 
     Parameters
     ----------
@@ -38,7 +40,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
     InputError
         As `flypend.envs.environment`.
     ResetNeeded
-        If it is stepped before it is reset.
+        If it is stepped before it is reset, or after its episode has ended.
     """
 
     def __init__(
@@ -65,8 +67,12 @@ class World(Stateful, gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Advance by `action` (m,), each entry in [−1, 1]. Raises InputError for another shape."""
         self._check_begun()
-        worlds = self.worlds
-        worlds.step(np.asarray(action)[None])
+        worlds, action = self.worlds, np.asarray(action)
+        if worlds.terminated[0] or worlds.truncated[0]:
+            raise ResetNeeded("the episode has ended: reset the environment")
+        if action.shape != (worlds.env.actions,):
+            raise InputError("actions", f"real numbers of shape ({worlds.env.actions},)", f"shape {action.shape}")
+        worlds.step(action[None])
         terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
         over = worlds.terminated | worlds.truncated
         last = worlds.last_observation(over)

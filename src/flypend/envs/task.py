@@ -11,8 +11,11 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
+from flypend.building import no_numbers
 from flypend.envs.draws import Draws
+from flypend.errors import InputError
 from flypend.geometry import apply, transpose
+from flypend.laws.law_error import explain
 from flypend.model import State, Vehicle
 from flypend.model.mount import least_margin
 
@@ -101,6 +104,25 @@ class Task:
     shown: Callable[[Moment], Any] = observe_nothing
     defaults: Mapping[str, Any] = field(default_factory=dict)
     mounts: tuple[str, ...] = ("gimbal", "hub", "cup")
+
+    def ask(self, name: str, *arguments: Any, rows: int | None = None) -> Any:
+        """Return what the function `name` answers on symbols, in columns, of so many `rows` if that is said.
+
+        Raises InputError if it fails, or answers something else.
+        """
+        try:
+            with no_numbers():
+                answer = getattr(self, name)(*arguments)
+            parts = answer if isinstance(answer, tuple) else (answer,)
+            shapes = [ca.SX(part).shape for part in parts if not isinstance(part, State)]
+        except Exception as error:
+            told = f"one that fails: {explain(error)}"[:200]
+            raise InputError(f"task.{name}", "a function of symbols that returns numbers", told) from error
+        for shape in shapes:
+            if shape[1] != 1 or rows not in (None, shape[0]):
+                wanted = "a number: sum what is more" if rows == 1 else f"columns of {rows or 'some'} numbers"
+                raise InputError(f"task.{name}", wanted, f"shape {shape}")
+        return answer
 
 
 def near(value: Any, scale: float) -> Any:

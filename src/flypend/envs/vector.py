@@ -87,7 +87,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         with self.worlds.hold(~which):
             self.worlds.begin(fresh)
             self.worlds.remember(which)
-        return self._check(self.worlds.shown), {}
+        return self._give(self.worlds.shown), {}
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Advance all worlds by `actions` (num_envs, m), each entry in [−1, 1]. Raises InputError for another shape."""
@@ -103,8 +103,8 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             infos = {"final_obs": worlds.last_observation(over), "_final_obs": over}
         worlds.remember(anew)
         results = (worlds.rewards, worlds.terminated, worlds.truncated)
-        rewards, terminated, truncated = (self._check(result) for result in results)
-        return self._check(worlds.shown), rewards, terminated, truncated, infos
+        rewards, terminated, truncated = (self._give(result) for result in results)
+        return self._give(worlds.shown), rewards, terminated, truncated, infos
 
     def _step_and_wait(self, actions: Any) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Advance the worlds that have not ended; return which begin anew by this step, and which it ends.
@@ -118,10 +118,10 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
             raise ResetNeeded(f"worlds {np.flatnonzero(waiting).tolist()} have ended: reset them by a reset_mask")
         with worlds.hold(waiting):
             worlds.step(actions)
-        worlds.shown[waiting], worlds.rewards[waiting] = worlds.last[waiting], 0
+        worlds.observations[waiting], worlds.rewards[waiting] = worlds.last[waiting], 0
         worlds.terminated[waiting], worlds.truncated[waiting] = False, False
         over = worlds.terminated | worlds.truncated
-        worlds.shown[over], worlds.last[over] = worlds.last[over], worlds.shown[over]
+        worlds.observations[over], worlds.last[over] = worlds.last[over], worlds.observations[over]
         return waiting, over
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
@@ -157,5 +157,5 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
                 check_seed("seed", seed)
         return np.array([new if own is None else own for new, own in zip(fresh, seeds, strict=True)], dtype=np.int64)
 
-    def _check(self, array: NDArray[Any]) -> NDArray[Any]:
+    def _give(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self.copy else array

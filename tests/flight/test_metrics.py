@@ -399,3 +399,22 @@ def test_wilsons_interval_covers_the_rate_in_95_of_100_experiments(rate, runs):
     middle = {k: (low + high) / 2 for k, (low, high) in ends.items()}
     half = [abs(rate - middle[k]) <= (ends[k][1] - ends[k][0]) / 4 for k in drawn.tolist()]
     assert np.mean(half) < 0.9
+
+
+def test_a_run_without_samples_to_judge_is_refused_and_a_long_hold_is_not_late():
+    vehicle, start = fp.vehicle("hehn2011"), fp.State(x=(1, 0, 0), y=(0, 0, 1))
+    run = fp.simulate(vehicle, fp.laws.lqr(), start, 4, times=np.linspace(0, 2, 21))
+    with pytest.raises(fp.InputError) as refused:
+        fp.metrics(run)
+    assert refused.value.field == "times"
+    still = fp.simulate(vehicle, fp.laws.lqr(), fp.State(y=(0, 0, 1)), 1)
+    assert [fp.metrics(still, fp.Criterion(hold=hold)).success for hold in (0.5, 3.0)] == [True, True]
+
+
+def test_a_run_that_touches_at_its_start_strays_by_nothing():
+    """A mean over such runs is finite: a kernel has no sample of them."""
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    found = fp.simulate_ensemble(vehicle, fp.laws.inverted(), fp.State.random(np.random.default_rng(0), 64), 0.5)
+    touched = found.end == 0
+    assert touched.any()
+    assert np.all(found.excursion[touched] == 0)

@@ -144,3 +144,13 @@ def test_what_makes_no_sense_is_refused(options, line):
     given = {"vehicle": CASE.vehicle, "law": CASE.law(), "start": CASE.start, "duration": 1.0} | options
     with pytest.raises(fp.InputError, match=line):
         fp.sensitivity(**given)
+
+
+def test_a_flight_that_touches_has_no_derivative():
+    vehicle = fp.vehicle("hehn2011").replace(mount="hub")
+    with pytest.raises(fp.InputError) as refused:
+        fp.sensitivity(vehicle, fp.laws.inverted(), fp.State(y=(1, 0, 0)), 1.0)
+    assert refused.value.field == "start"
+    assert fp.sensitivity(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1).outcome.status == "completed"
+    with pytest.raises(fp.InputError, match="gains"):
+        fp.sensitivity(vehicle, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1, gains="rod_bandwidth")

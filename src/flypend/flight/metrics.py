@@ -98,9 +98,15 @@ class Recovery:
 
 @errors.named_arguments
 def metrics(run: Trajectory, criterion: Criterion | None = None) -> Metrics:
-    """Return the metrics of `run` by `criterion` (default `Criterion()`: inverted)."""
+    """Return the metrics of `run` by `criterion` (default `Criterion()`: inverted), judged at its samples.
+
+    Raises InputError if a completed run has no sample as late as the criterion looks.
+    """
     errors.check_kind("run", run, "Trajectory")
     criterion = criterion or Criterion()
+    latest = max(run.outcome.time - criterion.hold, 0.0)
+    if run.outcome.status == "completed" and run.t[-1] < latest - SAME:
+        raise errors.InputError("times", f"samples beyond {latest:g} s, to judge the run", f"{run.t[-1]:g} s at most")
     distance = norm(run.x - run.x_ref)
     excess = _excess(run, criterion)
     out = [~(part <= 0) for part in excess]
@@ -180,16 +186,16 @@ def judge(
     extents = reductions[:, 7:] if reductions.shape[1] > 7 else np.full((len(end), 6), np.nan)
     room = {"lowest": -extents[:, 5]} | {f"box_{'xyz'[i]}": extents[:, i] + extents[:, 3 + i] for i in range(3)}
     status = np.asarray(status)
-    late = last >= (end - criterion.hold - SAME)[:, None]
+    late = (last >= 0) & (last >= (end - criterion.hold - SAME)[:, None])
     success = (status == "completed") & ~np.any(late, axis=1)
     cause = np.where(status != "completed", status, np.array(PARTS)[np.argmax(late, axis=1)])
     share = vehicle.weight / len(vehicle.rotor_spins)
     return {
         "success": success,
         "settling": np.where(success, since, np.nan),
-        "excursion": excursion,
+        "excursion": np.maximum(excursion, 0.0),  # of a run that touched at its start there is no sample: −∞
         "effort": np.sqrt(square) / share,
-        "peak_force": peak,
+        "peak_force": np.maximum(peak, 0.0),
         "end": end,
         "clearance": np.full(len(end), np.inf) if clearance is None else clearance,
         # A run that ended at its start was not looked at: infinite.

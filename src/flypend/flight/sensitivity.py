@@ -22,6 +22,7 @@ from flypend.flight.kernels.stopping import heard
 from flypend.flight.labels import dataset, describe, state_variables, variable
 from flypend.flight.outcome import Outcome
 from flypend.flight.request import Flight, Tolerances
+from flypend.flight.simulate import simulate
 from flypend.laws import BoundLaw, Law
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.laws.linearise import COORDINATES, tangent_basis
@@ -116,7 +117,7 @@ def sensitivity(
     Raises
     ------
     InputError
-        If the law is not symbolic, the start is a batch, or the law lacks a gain.
+        If the law is not symbolic, the start is a batch, the law lacks a gain, or the rod touches the vehicle.
     """
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
@@ -130,11 +131,15 @@ def sensitivity(
         plant=Ideal(),
         tolerances=Tolerances(rtol=rtol),
     )
+    if isinstance(gains, str):
+        raise InputError("gains", "a sequence of names", repr(gains))
     bound, names = flight.loop.symbolic, tuple(gains)
     errors.only_known("gains", dict.fromkeys(names), bound.numbers)
     flown = _fly_tangents(flight, names)
     first = int(np.argmax(flown.status != "completed"))  # of those that failed, or of all
     completed = flown.status[first] == "completed"
+    if flight.loop.touches and (end := simulate(vehicle, law, start, duration, plant="ideal").outcome).reason:
+        raise InputError("start", "one from which nothing touches, which has no derivative", str(end))
     derivatives = flown.final[:, SIZE:].T if completed else np.full((SIZE, len(flown)), np.nan)
     return Sensitivity(
         final=State.from_packed(project(flown.final[0, :SIZE])[0]),

@@ -22,3 +22,13 @@ def test_a_wrong_table_of_sensors_is_one_line(call, tmp_path):
     assert said.startswith("flypend: sensors.gyro_bias: ")
     assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_an_app_tells_only_of_limits_that_change(call, tmp_path):
+    for limits, told in (([0.02, 0.11], False), ([0.01, 0.2], True)):
+        (tmp_path / "mine.toml").write_text(
+            f'base = "crazyflie"\nthrust_scale = 0.9\nrotor_limits = {limits}', encoding="utf-8"
+        )
+        code, out, said = call("export-app", "crazyflie", "mine.toml", "--height", 2)
+        assert code == 0, said
+        assert ("rotor forces" in out + said) == told

@@ -119,7 +119,7 @@ def export_app(
     Returns
     -------
     Vehicle
-        `vehicle` as the app flies it: within the rotor limits of a Crazyflie's airframe.
+        `vehicle.commanded()` as the app flies it: within the rotor limits of a Crazyflie's airframe.
 
     Raises
     ------
@@ -138,10 +138,11 @@ def export_app(
     read = sensors_called(sensors, "sensors")
     if target == "px4":
         _check_px4(airframe, sensors if read else None, planned)
-        flown, own = vehicle, _px4(vehicle, rate)
+        flown = vehicle.commanded()
+        own = _px4(flown, rate)
     else:
         _check_sensors(read, planned)
-        flown, own = _crazyflie(vehicle, rate, airframe)
+        flown, own = _crazyflie(vehicle.commanded(), rate, airframe)
     made = interface(law, flown, rate, read)
     texts = core(made, "float")
     if planned:
@@ -153,7 +154,7 @@ def export_app(
     values = values_of(made, "float") | {
         **{name: literal(getattr(flown, own), "float") for name, own in PENDULUM.items()},
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
-        "weight": f"{1e3 * (flown.M + flown.m):.3g}",
+        "weight": f"{1e3 * (vehicle.mass + vehicle.bob_mass):.3g}",
         "rod": f"{flown.l:.3g}",
         "pendulum": f"{flown.M:.4g} kg, {flown.m:.4g} kg and {flown.l:.4g} m",
         "height": literal(room.height, "float"),

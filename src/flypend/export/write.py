@@ -16,7 +16,7 @@ import numpy as np
 from flypend import errors, signals
 from flypend.board.command import usable_lead
 from flypend.building import builds
-from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
+from flypend.compile.c99 import PRECISIONS, Precision, define_real, literal, reads
 from flypend.compile.record import Record
 from flypend.errors import InputError
 from flypend.export import records, vectors
@@ -141,6 +141,7 @@ def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
         "vehicle": ascii_of(vehicle.name),
         "version": metadata.version("flypend"),
         "precision": precision,
+        "real": define_real(precision),
         "memory": offsets(made.memory, "MEMORY"),
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),

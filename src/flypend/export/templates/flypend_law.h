@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-typedef $precision flypend_real;
+$real
 
 #define FLYPEND_ROTORS $rotors
 /* 1 if the law reads a reference. */

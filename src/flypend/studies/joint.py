@@ -302,7 +302,7 @@ def _fly_tasks(
             if not len(mine):
                 continue
             one = flight.through(knock_on(vehicle, world, size, POKE_PERIOD)).replace(
-                starts=mine.in_frame(law.e3), seed=(flight.seed or 0) + place,
+                starts=mine.in_frame(law.e3), seed=(flight.seed or 0) + place * len(some),
             )  # fmt: skip
             if name == "pokes":
                 one = one.replace(duration=2 * POKE_PERIOD, times=np.arange(0.0, 2 * POKE_PERIOD, SAMPLE))

@@ -120,6 +120,13 @@ def test_a_battery_gives_a_training_the_largest_forces_that_it_gives_near_hover(
     np.testing.assert_allclose(drained, (1 - 0.1 * load) ** 2 * full, rtol=1e-12)
 
 
+def test_rotors_hover_at_the_share_that_a_flight_holds():
+    machine = VEHICLE.replace(thrust_scale=0.8)
+    least, most = machine.rotor_limits
+    hover = Machines.of(usual(machine).course, 0).all.hover
+    assert np.allclose(hover, (machine.weight / 0.8 / 4 - least) / (most - least))
+
+
 def test_errors_are_those_of_hover_once_the_start_is_forgotten():
     course = Course(MINE, duration=4.0, sensors=MOCAP)
     errors = Machines.of(course, 0).errors(np.random.default_rng(1), 2000)

@@ -42,7 +42,7 @@ class Course:
     Parameters
     ----------
     vehicle : Vehicle
-        The vehicle, with rotors that have a lag.
+        The vehicle, with rotors that have a lag; kept in units of commanded force.
     period, duration : float
         Control period and length of a flight, s.
     excursion : float
@@ -66,6 +66,9 @@ class Course:
     arms: float = 3.0
     bands: bool = False
     sensors: Sensors | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vehicle", self.vehicle.commanded())
 
     @property
     def steps(self) -> int:

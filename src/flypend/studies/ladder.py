@@ -92,6 +92,7 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
         found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
     if known:
         found["air"] = ROTORS.replace(air="all")
+    vehicle = vehicle.commanded()
     swing = 2 * SWING_DAMPING * vehicle.m * vehicle.l * np.sqrt(vehicle.g * vehicle.l)
     found["viscous friction"] = ROTORS.replace(pivot_damping=float(swing))
     found["dry friction"] = ROTORS.replace(pivot_friction=float(DRY_SHARE * vehicle.m * vehicle.g * vehicle.l))

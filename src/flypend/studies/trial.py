@@ -142,7 +142,7 @@ def trial(
         flight = flight.replace(duration=30.0)
     again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
     from_rest = starts.get("hanging", random)[again].in_frame(bound.e3)
-    hit = flight.through(knock_on(vehicle, world, speed, DURATION / KNOCKS))
+    hit = flight.through(knock_on(flight.vehicle, world, speed, DURATION / KNOCKS))
     sampled = hit.replace(starts=from_rest, duration=DURATION, times=np.arange(0.0, DURATION, SAMPLE))
     knocked = fly_many(sampled, workers=workers)
     progress("knocks", 1, 1)

@@ -22,7 +22,7 @@ from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
 from flypend.export.rehearsal import Room, measure_room
 from flypend.export.source import describe, initializer, literals
-from flypend.export.write import core, fill, values_of
+from flypend.export.write import check_folder, core, fill, values_of
 from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
 from flypend.model import State, Vehicle
@@ -100,7 +100,7 @@ def export_app(
         of an arm from the firmware's positions. With PX4 rotors may come in any order: the module matches them with the
         parameters of the airframe.
     out : str or Path
-        Folder that receives the files; it may exist.
+        As in `export_c`.
     airframe : "cf2" or "cf21bl", optional
         Airframe that a Crazyflie's firmware is built for; default the one with the nearest arm length.
     rate : float, optional
@@ -132,6 +132,7 @@ def export_app(
     errors.one_of("target", target, tuple(FILES))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
+    check_folder(out, FILES[target])
     rate = errors.number("rate", RATES[target] if rate is None else rate, above=0, at_most=1000, unit="Hz")
     if height is not None:
         height = errors.number("height", height, at_least=0.5, at_most=100, unit="m")

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from importlib import metadata, resources
 from pathlib import Path
 from string import Template
@@ -68,7 +69,7 @@ def export_c(
     vehicle : Vehicle
         What it flies.
     out : str or Path
-        Folder that receives the files; it may exist.
+        Folder that receives the files. It may exist, with files of the same names if an export wrote them.
     precision : "double" or "float"
         Type of every number.
     rate : float
@@ -89,12 +90,13 @@ def export_c(
     InputError
         If `law` is not a `Law`, or uses the time itself or a function other than the square root; if the vehicle's
         rotors do not share thrust and yaw equally; if the precision is unknown or the rate out of range; or if the
-        folder cannot be written.
+        folder cannot be written, or has files of these names that no export wrote.
     """
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", repr(law))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
+    check_folder(out, BESIDE)
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     made = interface(law, vehicle, rate, sensors_called(sensors, "sensors"))
@@ -107,6 +109,17 @@ def export_c(
             warnings.warn(f"the exported law flies {vehicle.name} poorly: {found.poor}", stacklevel=2)
     write_texts(out, texts)
     return Path(out)
+
+
+def check_folder(out: str | Path, names: Iterable[str]) -> None:
+    """Raise InputError if the folder `out` has a file of one of `names`, and no README.md that an export wrote."""
+    try:
+        written = "ritten by flypend " in (Path(out) / "README.md").read_text(encoding="utf-8", errors="replace")
+    except (OSError, ValueError):
+        written = False
+    for path in (Path(out) / name for name in names):
+        if not written and os.path.lexists(path):
+            raise InputError(str(path), "nothing, or a folder that an export wrote", "another file")
 
 
 def core(made: Interface, precision: Precision) -> dict[str, str]:

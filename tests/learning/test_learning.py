@@ -127,6 +127,13 @@ def test_rotors_hover_at_the_share_that_a_flight_holds():
     assert np.allclose(hover, (machine.weight / 0.8 / 4 - least) / (most - least))
 
 
+def test_no_command_is_later_than_a_period_and_the_shortest_flight_has_a_last_step():
+    course = Course(MINE, period=0.005, duration=0.01, bands=True)
+    assert Machines.of(course, 0).all.of_flight[:, [0, 4]].min() > 0  # lengths of both parts of a period
+    assert course.weights.shape == (2,)
+    assert course.weights.sum() == pytest.approx(course.throughout + course.last)
+
+
 def test_errors_are_those_of_hover_once_the_start_is_forgotten():
     course = Course(MINE, duration=4.0, sensors=MOCAP)
     errors = Machines.of(course, 0).errors(np.random.default_rng(1), 2000)

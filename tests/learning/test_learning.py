@@ -296,6 +296,12 @@ def test_starts_touch_nothing_wherever_the_pivot_is():
     assert clearances(rods, hub.rotors_from_pivot, hub.reach, hub.body).min() > 0
 
 
+def test_a_machine_without_room_for_its_rod_is_not_looked_at_for_ever(monkeypatch):
+    monkeypatch.setattr("flypend.flight.tasks.touches", lambda vehicle, states: np.ones(len(states), bool))
+    with pytest.raises(fp.InputError, match="room for its rod"):
+        starts(VEHICLE.replace(mount="hub"), np.random.default_rng(4), 2)
+
+
 def nearest(course, weights, begin):
     flights = Flights(course, len(begin))
     flights.fly(weights, begin)

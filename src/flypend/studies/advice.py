@@ -16,13 +16,13 @@ from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.feasibility import feasibility
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import task_starts
+from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import inverted
 from flypend.model import Vehicle
 from flypend.model.rod import stretch
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
-from flypend.studies.margins import LEAST_RATE, Count
+from flypend.studies.margins import Count
 
 RUNS, DURATION = 100, 30.0  # flights of a changed vehicle, and seconds of each, as in a check
 # Factors of each number, from a small change to the largest that leaves the machine recognisable, and how to make it.

@@ -10,6 +10,7 @@ import numpy as np
 
 from flypend import errors, plants, signals
 from flypend.errors import InputError
+from flypend.flight.tasks import LEAST_RATE
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
@@ -153,7 +154,7 @@ class Ladder:
 
     rungs: dict[str, Comparison]
 
-    def broken(self, law: str, below: float = 0.9) -> list[str]:
+    def broken(self, law: str, below: float = LEAST_RATE) -> list[str]:
         """Return the rungs on which the success rate of `law` is less than `below`."""
         return [rung for rung, comparison in self.rungs.items() if comparison.ensembles[law].rate < below]
 

@@ -240,6 +240,9 @@ def test_only_the_law_that_settles_is_flown_for_longer(call, monkeypatch):
     # Without beta the printed law would spin up to 1e6 rad/s within 20 s, and take minutes for it.
     assert call("run", "1", *short, "--set", "law.name=printed", "--set", "law.gains.beta=off")[0] == 0
     assert flown == [0.1, SETTLED, 0.1]
+    # Nor is one on rotors, of which the theorem says nothing.
+    assert call("run", "1", *short, "--set", "plant=rotors")[0] == 0
+    assert flown == [0.1, SETTLED, 0.1, 0.1]
 
 
 def test_names_that_look_like_markup_are_printed_as_they_are(call, tmp_path):

@@ -484,6 +484,8 @@ def test_bands_are_ratios_of_what_is_written():
              "strength": ([0.9, 1.0, 1.0, 1.0], [1.0, 1.1, 1.0, 1.0]), "sag": (0.0, 0.1)}  # fmt: skip
     vehicle = VEHICLE.replace(bands=bands, mass=0.6, thrust_scale=0.8)
     found = environment("balance", vehicle=vehicle, randomise="bands").randomise
+    late = environment("balance", vehicle=vehicle, randomise="bands", plant=PHYSICS.replace(delay=0.005)).randomise
+    assert late.delay == pytest.approx((0.0, 0.015))  # and with the plant's, up to the 20 ms of the band
     wanted = {"mass": (5 / 6, 7 / 6), "lag": (0.05, 0.04 / vehicle.rotor_lag), "thrust": (0.875, 1.125)}
     wanted |= {"delay": (0.0, 0.02), "strength": (0.9, 1.1), "bob_mass": (1.0, 1.0), "wind": (0.0, 0.0)}
     for name, interval in wanted.items():

@@ -367,16 +367,32 @@ def test_a_rod_that_is_not_light_is_told_to_the_firmware_as_the_pendulum_that_sw
     light = fp.vehicle(name)
     made = light.replace(**fp.rod_with_bob(light.bob_mass / 2, light.rod_length, light.bob_mass / 2))
     vehicle = fp.export_app(target, LAW, made, tmp_path, height=3.0)
+    numbers = _pendulum(target, tmp_path)
+    np.testing.assert_allclose(numbers, params_of(vehicle)[:3], rtol=1e-6)  # what the law is called with
+    assert abs(numbers[2] - vehicle.rod_length) > 0.05 * vehicle.l  # negative control
+
+
+def _pendulum(target, folder):
+    """M, m and l that the app begins with."""
     if target == "px4":
-        table = (tmp_path / "module.yaml").read_text()
+        table = (folder / "module.yaml").read_text()
         found = [
             re.search(rf"FPD_{key}:.*?default: (\S+)", table, re.DOTALL)[1] for key in ("MASS", "BOB_MASS", "ROD_LEN")
         ]
     else:
-        found = re.search(r"asked = \{([^}]*)\}", (tmp_path / "flypend_app.c").read_text())[1].split(", ")[:3]
-    numbers = [float(number.rstrip("f")) for number in found]
-    np.testing.assert_allclose(numbers, params_of(vehicle)[:3], rtol=1e-6)  # what the law is called with
-    assert abs(numbers[2] - vehicle.rod_length) > 0.05 * vehicle.l  # negative control
+        found = re.search(r"asked = \{([^}]*)\}", (folder / "flypend_app.c").read_text())[1].split(", ")[:3]
+    return [float(number.rstrip("f")) for number in found]
+
+
+@pytest.mark.parametrize(("target", "name"), [("crazyflie", "crazyflie"), ("px4", "hehn2011")])
+def test_masses_are_over_the_scale_of_thrust_as_in_the_law_and_the_weight_is_that_of_the_scales(target, name, tmp_path):
+    machine = fp.vehicle(name).replace(thrust_scale=0.8)
+    fp.export_app(target, LAW, machine, tmp_path, height=3.0)
+    numbers, defaults = _pendulum(target, tmp_path), (tmp_path / "flypend_law.c").read_text()
+    np.testing.assert_allclose(numbers, [machine.M / 0.8, machine.m / 0.8, machine.l], rtol=1e-6)
+    law_mass = re.search(r"flypend_default_params = \{.*?([0-9][0-9.e-]*)f", defaults, re.DOTALL)[1]
+    assert float(law_mass) == pytest.approx(numbers[0])
+    assert f"{1e3 * (machine.mass + machine.bob_mass):.3g} g with rod" in (tmp_path / "README.md").read_text()
 
 
 def test_an_app_with_more_before_the_law_keeps_its_rules(more):
@@ -425,6 +441,7 @@ def test_a_plan_flies_from_where_the_rod_hangs_and_else_the_law_to_the_bit(more,
         ("crazyflie", {}, {"airframe": "cf21bl"}, "rotor_positions"),
         ("crazyflie", {}, {"rate": 300.0}, "rate"),
         ("crazyflie", {"bob_mass": 0.03}, {}, "vehicle"),
+        ("crazyflie", {"thrust_scale": 0.4}, {"height": 2.0}, "vehicle"),
         ("crazyflie", {}, {"sensors": "onboard"}, "sensors"),
         ("crazyflie", {}, {"sensors": "mocap", "planned": True}, "planned"),
         ("px4", {}, {"sensors": "mocap"}, "sensors"),

@@ -401,11 +401,12 @@ def test_what_cannot_be_exported_is_refused_and_nothing_is_written(tmp_path):
             fp.export_c(law, vehicle, tmp_path / "out")
     with pytest.raises(fp.InputError, match="precision: expected one of double, float"):
         fp.export_c(fp.laws.inverted(), VEHICLE, tmp_path / "out", precision="half")
-    for rate in (0.0, 2e4, np.nan):
+    for rate in (0.0, 2e4, np.nan, 3.0):
         with pytest.raises(fp.InputError, match="rate: expected"):
             fp.export_c(fp.laws.inverted(), VEHICLE, tmp_path / "out", rate=rate)
-    with pytest.raises(fp.InputError, match="a folder that can be written"):
-        fp.export_c(fp.laws.inverted(), VEHICLE, tmp_path / "no" / "such" / "folder")
+    for folder in (tmp_path / "no" / "such" / "folder", tmp_path / "a\0b"):
+        with pytest.raises(fp.InputError, match="a folder that can be written"):
+            fp.export_c(fp.laws.inverted(), VEHICLE, folder, check=False)
     assert not list(tmp_path.iterdir())
 
 

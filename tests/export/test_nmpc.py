@@ -3,6 +3,7 @@
 import ctypes
 import re
 from dataclasses import replace
+from itertools import permutations
 
 import numpy as np
 import pytest
@@ -30,6 +31,17 @@ def plan():
 @pytest.fixture(scope="module")
 def coarse(plan):
     return coarsen(plan, COARSER)
+
+
+CALLS = """
+int main(void)
+{
+    static flypend_nmpc nmpc;
+    flypend_real numbers[24] = {0};
+    flypend_nmpc_begin(&nmpc, &flypend_nmpc_exported);
+    return flypend_plan_command(0, numbers, numbers, numbers);
+}
+"""
 
 
 class InC:
@@ -203,8 +215,21 @@ def test_the_command_writes_it_beside_the_law(tmp_path):
     out = tmp_path / "c"
     words = ["export-c", "--law", "nmpc", "--precision", "float", "--no-check", "--out", str(out)]
     cli.app(words, standalone_mode=False)
-    both = '#include "flypend_law.h"\n#include "flypend_nmpc.h"\nint main(void) { return 0; }\n'
-    (out / "both.c").write_text(both)
-    build(out, ["both.c"], "both")
     assert "typedef float flypend_real" in (out / "flypend_law.h").read_text()
     assert (out / "flypend_nmpc.c").exists()
+
+
+def test_headers_of_one_precision_stand_beside_each_other_in_c_and_cpp(plan, tmp_path):
+    for precision in ("double", "float"):
+        fp.export_c(fp.laws.inverted(), HEHN, tmp_path / precision, precision=precision, check=False)
+        fp.export_plan(plan, tmp_path / precision, precision=precision)
+        fp.export_nmpc(plan, tmp_path / precision, precision=precision)
+    code = tmp_path / "code.c"
+    for names in permutations(("law", "plan", "nmpc")):
+        code.write_text("".join(f'#include "float/flypend_{name}.h"\n' for name in names) + CALLS)
+        build(tmp_path, ["-c", code], "code.o")
+        code.write_text(code.read_text().replace("float", "double", 1))
+        assert "different precisions" in run(["gcc", "-w", "-c", code], check=False).stderr
+    code.write_text("".join(f'#include "double/flypend_{name}.h"\n' for name in names) + CALLS)
+    objects = [build(tmp_path, ["-c", tmp_path / f"double/flypend_{name}.c"], f"{name}.o") for name in names]
+    build(tmp_path, ["-x", "c++", code, "-x", "none", *objects], "both", compiler="g++")

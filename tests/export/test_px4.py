@@ -174,6 +174,14 @@ def test_the_arming_check_names_what_the_mode_needs(world):
     assert not world.can_run()
 
 
+def test_a_bob_that_is_dated_ahead_is_watched_as_long_as_another(world):
+    for step in range(120):
+        world.changed = {"debug_array": {"timestamp": world.now + 150_000}}
+        world.fly(UP)
+        assert step >= 80 or not world.can_run()  # 0.2 s
+    assert world.can_run()
+
+
 STALE = {
     "vehicle_attitude": ATTITUDE,
     "vehicle_local_position": POSITION,

@@ -120,6 +120,20 @@ def test_a_battery_gives_a_training_the_largest_forces_that_it_gives_near_hover(
     np.testing.assert_allclose(drained, (1 - 0.1 * load) ** 2 * full, rtol=1e-12)
 
 
+def test_rotors_hover_at_the_share_that_a_flight_holds():
+    machine = VEHICLE.replace(thrust_scale=0.8)
+    least, most = machine.rotor_limits
+    hover = Machines.of(usual(machine).course, 0).all.hover
+    assert np.allclose(hover, (machine.weight / 0.8 / 4 - least) / (most - least))
+
+
+def test_no_command_is_later_than_a_period_and_the_shortest_flight_has_a_last_step():
+    course = Course(MINE, period=0.005, duration=0.01, bands=True)
+    assert Machines.of(course, 0).all.of_flight[:, [0, 4]].min() > 0  # lengths of both parts of a period
+    assert course.weights.shape == (2,)
+    assert course.weights.sum() == pytest.approx(course.throughout + course.last)
+
+
 def test_errors_are_those_of_hover_once_the_start_is_forgotten():
     course = Course(MINE, duration=4.0, sensors=MOCAP)
     errors = Machines.of(course, 0).errors(np.random.default_rng(1), 2000)
@@ -280,6 +294,12 @@ def test_starts_touch_nothing_wherever_the_pivot_is():
     states = fp.State.trusted((begin * Units.of(hub).states(4))[:, :24])
     rods = np.einsum("nji,nj->ni", states.R, states.y)
     assert clearances(rods, hub.rotors_from_pivot, hub.reach, hub.body).min() > 0
+
+
+def test_a_machine_without_room_for_its_rod_is_not_looked_at_for_ever(monkeypatch):
+    monkeypatch.setattr("flypend.flight.tasks.touches", lambda vehicle, states: np.ones(len(states), bool))
+    with pytest.raises(fp.InputError, match="room for its rod"):
+        starts(VEHICLE.replace(mount="hub"), np.random.default_rng(4), 2)
 
 
 def nearest(course, weights, begin):

@@ -86,5 +86,21 @@ def test_bands_travel_through_toml(tmp_path):
 def test_bands_that_are_none_are_refused(bands, said):
     with pytest.raises(InputError, match=said):
         fp.vehicle("hehn2011").replace(bands=bands)
-    with pytest.raises(InputError, match="thrust_scale"):
-        fp.vehicle("hehn2011").replace(thrust_scale=0)
+
+
+@pytest.mark.parametrize("scale", [0, 1e-300, 0.04, 21, 97, 1e9])
+def test_a_scale_that_no_rotors_have_is_refused_by_its_name(scale):
+    with pytest.raises(InputError, match=r"^thrust_scale: "):
+        fp.vehicle("hehn2011").replace(thrust_scale=scale)
+
+
+def test_what_is_plausible_as_written_is_so_in_units_of_commanded_force():
+    refused, plain = [], fp.vehicle("hehn2011")
+    for factor in np.geomspace(1e-3, 1e3, 25):
+        written = plain.to_dict() | {"rotor_limits": factor * plain.rotor_limits, "thrust_scale": 0.1}
+        try:
+            fp.Vehicle.from_dict(written).commanded()
+        except InputError as error:
+            refused.append((str(error), np.ravel(written[error.field.removeprefix("vehicle.")])[0]))
+    assert refused
+    assert all(f"with {number:g}" in said for said, number in refused)  # one that is written

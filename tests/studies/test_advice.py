@@ -70,6 +70,10 @@ def test_what_nothing_helps_is_said():
     assert "0 of 100" in lines[1]
 
 
+def test_rotors_without_lag_are_not_made_quicker():
+    assert set(changes_of(weak(0.2).replace(rotor_lag=0.0))[-1].factors) == set(CHANGES) - {"rotor_lag"}
+
+
 def test_a_changed_vehicle_keeps_its_shape():
     whole = HEHN.replace(**fp.rod_with_bob(0.02, 0.6, 0.04))
     new = change(whole, {"rod_length": 2.0, "bob_mass": 0.5, "rotor_limits": 1.5})

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.flight.tasks import task_starts
 from flypend.plants import ROTORS, SUITES
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.report.check import joint_lines
@@ -88,6 +89,21 @@ def test_what_fails_first_is_named_with_the_size_that_keeps_90_per_cent(monkeypa
     assert found.lines()[-1].startswith("calibrate to × 0.5 of rod_markers_off 0.0349 rad: 40 of 40")
     assert joint_lines({"inverted": found})[0] == "inverted, all at once:"
     assert json.loads(json.dumps(found.to_dict()))["causes"][0]["without"]["wilson"][1] > 0.999
+
+
+def test_no_two_runs_of_the_draws_share_their_noise(monkeypatch):
+    seeds = {}
+
+    def count(one, task):
+        seeds.setdefault(task, []).extend(range(one.seed, one.seed + one.runs))
+        return Count(one.runs, one.runs)
+
+    monkeypatch.setattr(joints, "_fly", lambda flight, worlds, progress: [Count(1, 1) for _ in worlds])
+    monkeypatch.setattr(joints, "_count", count)
+    random = {"random": task_starts(HEHN, 40, 1)["random"]}
+    monkeypatch.setattr(joints, "task_starts", lambda *_: random)
+    joint(HEHN, plant=ROTORS.replace(sensors=SUITES["mocap"]), runs=40)
+    assert [len(set(of_one_task)) for of_one_task in seeds.values()] == [40, joints.POKES]
 
 
 def test_two_errors_of_which_each_is_enough_are_both_to_be_calibrated(monkeypatch):

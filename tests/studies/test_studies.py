@@ -401,10 +401,11 @@ def test_the_rungs_are_those_promised():
             assert len(changed) == 1, name
 
 
-def test_rungs_of_the_joint_are_sized_by_the_rod():
+@pytest.mark.parametrize("scale", [1.0, 0.8])
+def test_rungs_of_the_joint_are_sized_by_the_rod(scale):
     """A hanging rod swings with the damping ratio that the rung has; dry friction is a share of m g l."""
-    vehicle = fp.vehicle("hummingbird")
-    found = rungs_for(vehicle)
+    written = fp.vehicle("hummingbird").replace(thrust_scale=scale)
+    found, vehicle = rungs_for(written), written.commanded()  # as a flight has it
     world = found["viscous friction"].true_vehicle(vehicle)
     # m l² θ̈ + c θ̇ + m g l θ = 0 with the vehicle held: c = 2 ζ m l √(g l).
     ratio = world.pivot_damping / (2 * vehicle.m * vehicle.l**2) / np.sqrt(vehicle.g / vehicle.l)

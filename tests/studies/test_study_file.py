@@ -1,5 +1,6 @@
 """The file of a study: every text is a study or is refused in one line, and says the same when it is written again."""
 
+import dataclasses
 import math
 import re
 import shlex
@@ -68,6 +69,18 @@ def test_a_study_is_what_its_table_says():
     other = fp.study(STUDY | {"criterion": {"position": math.inf, "target": "e3"}})
     assert study.flight.criterion == other.flight.criterion
     assert study.law.gains["k_d"] == 1.5
+
+
+@pytest.mark.parametrize(
+    "plant", ["laboratory", {"base": "rotors", "sensors": "mocap"}, {"sensors": {"base": "mocap", "gyro_bias": 0.1}}]
+)
+def test_what_varies_of_sensors_is_on_top_of_theirs_wherever_these_are_told(plant):
+    varied = {"gyro_scale": {"values": [0.01, 0.02]}, "position": {"latency": {"values": [0.01, 0.03]}}}
+    study = fp.study(
+        STUDY | {"plant": plant, "vary": {"plant": {"sensors": varied}}, "runs": 1, "start": {"y": [0, 0, 1]}}
+    )
+    sensors, last = study.flight.plant.sensors, study.plant_at(3).sensors
+    assert last == sensors.replace(gyro_scale=0.02, position=dataclasses.replace(sensors.position, latency=0.03))
 
 
 def test_its_text_reads_back_as_the_same():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.flight.ensemble import fly_many
 from flypend.plants import ROTORS
 from flypend.report.check import trial_cells
 from flypend.studies import trial as trials
@@ -38,6 +39,15 @@ def test_knocks_cost_uptime_and_the_hardest_bring_it_down(calm, monkeypatch):
     assert np.all((many.uptime >= 0) & (many.uptime <= 1))
     assert some.knock == pytest.approx(0.3 * np.sqrt(HEHN.g * HEHN.l))
     assert KNOCKS == 15
+
+
+def test_knocks_are_as_hard_on_a_vehicle_whose_rotors_push_less(monkeypatch):
+    flown, machine = [], HEHN.replace(thrust_scale=0.8)
+    monkeypatch.setattr(trials, "swept", lambda *_: {})
+    monkeypatch.setattr(trials, "fly_many", lambda flight, **given: flown.append(flight) or fly_many(flight, **given))
+    assert fp.trial(machine, runs=1, knock=1.0, workers=1).vehicle == machine
+    wind, moved = flown[-1].plant.wind, flown[-1].vehicle
+    assert wind.knock_on_vehicle / moved.mass == wind.knock_on_bob / moved.bob_mass == 1.0
 
 
 def test_the_sweeps_score_success_by_number_and_factor(calm):

@@ -144,6 +144,8 @@ def test_with_bands_every_gain_vector_flies_vehicles_drawn_and_the_report_flies_
     assert [flight.plant == written for flight in flown] == [True, False] * 3
     assert len({flight.plant for flight in searched} & {flight.plant for flight in reported}) == 1
     assert 0.4 / 0.5 <= searched[1].plant.mismatch["mass"] <= 0.6 / 0.5
+    seeds = [flight.seed + i for flight in searched for i in range(flight.runs)]
+    assert len(seeds) == len(set(seeds))  # noise of their own
     assert [len(flight.starts.x) for flight in flown] == [4, 2, 3, 2, 3, 2]  # two gain vectors on 2 and 1 starts
     assert set(tuned.gains) == set(STANDARD)
     assert tuned.after["runs"] == 5

@@ -83,8 +83,8 @@ def export_app(target: str, vehicle: str, out: Path, law: str, own: App, sensors
     read = sensors_called(sensors_asked(sensors), "--sensors")
     machine, chosen = fp.vehicle(vehicle), _symbolic(law)
     flown = fp.export_app(target, chosen, machine, out, sensors=read, **vars(own))
-    if flown != machine:
-        (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
+    (least, largest), (low, high) = flown.rotor_limits, machine.rotor_limits
+    if (least, largest) != (low, high):
         say(f"rotor forces {low:.3g} to {high:.3g} N become {least:.3g} to {largest:.3g} N, the firmware's limits")
     console.print(f"The app with the {chosen.name} law is in {bold(out)}; start with README.md.")
 

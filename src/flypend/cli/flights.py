@@ -83,7 +83,8 @@ def run(
     trajectory = fly(flight)
     # The printed law is not flown for longer: it drives the rod, and would spin it up without bound.
     longer = flight.replace(duration=max(SETTLED, flight.duration))
-    settled = fly(longer) if trajectory.law in ("corrected", "repaired", "almost_global") else None
+    limits = trajectory.interpolant is not None and trajectory.law in ("corrected", "repaired", "almost_global")
+    settled = fly(longer) if limits else None
     verdicts = write_flight(
         trajectory,
         chosen.settings,

@@ -32,6 +32,17 @@ _TRUTHS = {
 _ASKS = {"not": (0,), "and": (0, 1), "or": (0, 1), "select": (0,)}
 
 
+def define_real(precision: Precision) -> str:
+    """Return the C text that defines `REAL`, once for several headers, which must be of one precision."""
+    size = 8 if precision == "double" else 4
+    return f"""#ifndef FLYPEND_REAL
+#define FLYPEND_REAL {size}
+typedef {precision} {REAL};
+#elif FLYPEND_REAL != {size}
+#error "these headers of flypend were exported in different precisions"
+#endif"""
+
+
 def literal(value: float, precision: Precision) -> str:
     """The shortest C literal that is `value` in `precision`. Raises InputError for one that precision cannot hold."""
     if one_of("precision", precision, PRECISIONS) == "double" and np.isfinite(value):

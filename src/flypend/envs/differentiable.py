@@ -19,6 +19,7 @@ from flypend.envs.kernel import Worlds, in_threads, shares_of
 from flypend.envs.make import environment_for
 from flypend.envs.problem import Environment, Parts
 from flypend.errors import InputError
+from flypend.geometry import clip
 from flypend.model.state import SIZE
 from flypend.plants.plant import check_seed
 
@@ -205,7 +206,7 @@ def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
     clock, state, rotors, acted, queue, wind, timing, numbers, delay, goal = before
     command, step = parts.command(), parts.step()
     joined = _scalar("joined", [SIZE, env.rotors], lambda *vectors: [ca.vertcat(*vectors)])
-    asked = chain.call(_scalar("asked", [env.actions], lambda a: [_limited(a, 1.0)]), action)
+    asked = chain.call(_scalar("asked", [env.actions], lambda a: [clip(a, -1.0, 1.0)]), action)
     inner = env.action == "rates"
     for i in range(env.steps):
         if inner or i == 0:
@@ -241,10 +242,6 @@ def _scalar(name: str, lengths: Sequence[int], made: Callable[..., list[Any]]) -
     return ca.Function(name, vectors, list(map(ca.densify, made(*vectors))))
 
 
-def _limited(values: Any, most: float) -> Any:
-    return ca.fmax(ca.fmin(values, most), -most)
-
-
 def _hold(env: Environment, queued: int) -> ca.Function:
     """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
 
@@ -262,7 +259,7 @@ def _observe(parts: Parts, lengths: Sequence[int]) -> ca.Function:
     """(parts of the memory) → observation, limited as in compile/loops/worlds.cpp."""
 
     def observe(clock: Any, *memory: Any) -> list[Any]:
-        return [_limited(parts.observe()(clock / parts.env.rate, ca.vertcat(*memory)), BOUND)]
+        return [clip(parts.observe()(clock / parts.env.rate, ca.vertcat(*memory)), -BOUND, BOUND)]
 
     return _scalar("observe", lengths, observe)
 

@@ -7,6 +7,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from flypend.geometry import rotation_from_quat_xyzw
+
 
 class Draws:
     """Hands out symbols, each a number uniform in (0, 1), and what can be made of them."""
@@ -54,11 +56,7 @@ class Draws:
         share, first, second = self.share(), 2 * np.pi * self.share(), 2 * np.pi * self.share()
         small, large = ca.sqrt(1 - share), ca.sqrt(share)
         x, y, z, w = small * ca.sin(first), small * ca.cos(first), large * ca.sin(second), large * ca.cos(second)
-        return ca.vertcat(
-            ca.horzcat(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),
-            ca.horzcat(2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
-            ca.horzcat(2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
-        )
+        return rotation_from_quat_xyzw(ca.vertcat(x, y, z, w))
 
     def level(self, angle: float) -> Any:
         """A rotation (3, 3) of any heading whose third axis is within `angle` (rad) of e₃."""

@@ -82,7 +82,7 @@ def environment(
     chosen = {**DEFAULTS, **made.defaults, **given}
     machine = chosen.pop("vehicle")
     machine = machine if isinstance(machine, Vehicle) else vehicle_named(machine)
-    ranges = _ranges(chosen.pop("randomise"), machine)
+    ranges = _ranges(chosen.pop("randomise"), machine, getattr(chosen["plant"], "delay", 0.0))
     machine = machine.commanded()
     if (wanted := chosen.pop("mount", None)) is not None:
         machine = machine.replace(mount=wanted)
@@ -115,11 +115,11 @@ def environment_for(owner: type, task: str | Task, arguments: Mapping[str, Any])
     return environment(task, **arguments)
 
 
-def _ranges(given: Any, vehicle: Vehicle) -> Randomisation:
+def _ranges(given: Any, vehicle: Vehicle, delay: float) -> Randomisation:
     if isinstance(given, Randomisation):
         return given
     if isinstance(given, str) and given == "bands":
-        return Randomisation.within_bands(vehicle)
+        return Randomisation.within_bands(vehicle, delay)
     if not isinstance(given, Mapping):
         raise InputError("randomise", 'a Randomisation, a table of intervals, or "bands"', repr(given))
     errors.only_known("randomise", given, (entry.name for entry in fields(Randomisation)))

@@ -33,7 +33,7 @@ class Randomisation:
         Ratio of the force of a rotor to that commanded. It is the product of both: `strength` is drawn for each rotor,
         `thrust` for all rotors together.
     delay : (2,)
-        Delay of the commands, s.
+        Delay of the commands in addition to that of the plant, s.
     wind : (2,)
         Magnitude of a constant force on the vehicle, N, in any direction.
 
@@ -70,11 +70,11 @@ class Randomisation:
         )
 
     @classmethod
-    def within_bands(cls, vehicle: Vehicle) -> Randomisation:
+    def within_bands(cls, vehicle: Vehicle, delay: float = 0.0) -> Randomisation:
         """Return the intervals that the bands of `vehicle` give for these numbers; its other bands are not used.
 
-        If a band reaches zero or below, its interval begins at a twentieth of the number in the file. Raises InputError
-        if it has no bands.
+        `delay` is that of the plant, s, which a band of delays includes. If a band reaches zero or below, its interval
+        begins at a twentieth of the number in the file. Raises InputError if the vehicle has no bands.
         """
         if not vehicle.bands:
             wanted = "bands in the vehicle's file, as flypend vehicle new and flypend identify write them"
@@ -88,7 +88,7 @@ class Randomisation:
                 low, high = float(np.min(band[0])) / value, float(np.max(band[1])) / value
                 found[name] = (max(low, LEAST), max(high, LEAST))
         if "delay" in bands:
-            found["delay"] = tuple(max(0.0, end) for end in bands["delay"])
+            found["delay"] = tuple(max(0.0, end - delay) for end in bands["delay"])
         return cls(**found)
 
 

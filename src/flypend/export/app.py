@@ -22,7 +22,7 @@ from flypend.export.interface import Interface, interface
 from flypend.export.plan import files as plan_files
 from flypend.export.rehearsal import Room, measure_room
 from flypend.export.source import describe, initializer, literals
-from flypend.export.write import core, fill, values_of
+from flypend.export.write import check_folder, core, fill, values_of
 from flypend.files.staging import write_texts
 from flypend.laws import BoundLaw, Law
 from flypend.model import State, Vehicle
@@ -100,7 +100,7 @@ def export_app(
         of an arm from the firmware's positions. With PX4 rotors may come in any order: the module matches them with the
         parameters of the airframe.
     out : str or Path
-        Folder that receives the files; it may exist.
+        As in `export_c`.
     airframe : "cf2" or "cf21bl", optional
         Airframe that a Crazyflie's firmware is built for; default the one with the nearest arm length.
     rate : float, optional
@@ -119,7 +119,7 @@ def export_app(
     Returns
     -------
     Vehicle
-        `vehicle` as the app flies it: within the rotor limits of a Crazyflie's airframe.
+        `vehicle.commanded()` as the app flies it: within the rotor limits of a Crazyflie's airframe.
 
     Raises
     ------
@@ -132,16 +132,18 @@ def export_app(
     errors.one_of("target", target, tuple(FILES))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
+    check_folder(out, FILES[target])
     rate = errors.number("rate", RATES[target] if rate is None else rate, above=0, at_most=1000, unit="Hz")
     if height is not None:
         height = errors.number("height", height, at_least=0.5, at_most=100, unit="m")
     read = sensors_called(sensors, "sensors")
     if target == "px4":
         _check_px4(airframe, sensors if read else None, planned)
-        flown, own = vehicle, _px4(vehicle, rate)
+        flown = vehicle.commanded()
+        own = _px4(flown, rate)
     else:
         _check_sensors(read, planned)
-        flown, own = _crazyflie(vehicle, rate, airframe)
+        flown, own = _crazyflie(vehicle.commanded(), rate, airframe)
     made = interface(law, flown, rate, read)
     texts = core(made, "float")
     if planned:
@@ -153,7 +155,7 @@ def export_app(
     values = values_of(made, "float") | {
         **{name: literal(getattr(flown, own), "float") for name, own in PENDULUM.items()},
         "limits": f"{flown.rotor_limits[0]:.3g} to {flown.rotor_limits[1]:.3g} N",
-        "weight": f"{1e3 * (flown.M + flown.m):.3g}",
+        "weight": f"{1e3 * (vehicle.mass + vehicle.bob_mass):.3g}",
         "rod": f"{flown.l:.3g}",
         "pendulum": f"{flown.M:.4g} kg, {flown.m:.4g} kg and {flown.l:.4g} m",
         "height": literal(room.height, "float"),

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from flypend import errors
 from flypend.building import builds
-from flypend.compile.c99 import PRECISIONS, REAL, SCRATCH, Precision, call, function, literal
+from flypend.compile.c99 import PRECISIONS, REAL, SCRATCH, Precision, call, define_real, function, literal
 from flypend.compile.program import Program, lower
 from flypend.compile.scratch import scratch
 from flypend.errors import InputError
@@ -116,7 +116,8 @@ def _of_both(plan: Plan, precision: Precision) -> dict[str, Any]:
         "far_rod": FAR_ROD**2, "far_pivot": far**2,
     }  # fmt: skip
     written = {name: literal(value, precision) for name, value in numbers.items()}
-    return written | {"precision": precision, "rotors": len(plan.vehicle.rotor_spins), "stages": len(plan.commands)}
+    counts = {"rotors": len(plan.vehicle.rotor_spins), "stages": len(plan.commands)}
+    return written | counts | {"real": define_real(precision)}
 
 
 def advance(vehicle: Vehicle) -> ca.Function:

@@ -13,13 +13,12 @@ from flypend.flight.ensemble import fly_many
 from flypend.flight.feasibility import feasibility
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight
-from flypend.flight.tasks import TICK, fly_tasks, task_starts
+from flypend.flight.tasks import LEAST_RATE, TICK, fly_tasks, task_starts
 from flypend.laws import BoundLaw, Law
 from flypend.model import Vehicle
 from flypend.plants import ROTORS
 
 RUNS, SEED, DURATION = 200, 1, 30.0  # s
-LEAST_RATE = 0.9
 DIRECTIONS, SWING_UP = 24, 10.0  # headings, and s of a flight for the room
 MARGIN = 1.5  # of what the model needs: for a machine that is not the model, and for PID to recover from a swing-up
 STEP = 0.5  # m, to which the room is rounded up

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from importlib import metadata, resources
 from pathlib import Path
 from string import Template
@@ -16,7 +17,7 @@ import numpy as np
 from flypend import errors, signals
 from flypend.board.command import usable_lead
 from flypend.building import builds
-from flypend.compile.c99 import PRECISIONS, Precision, literal, reads
+from flypend.compile.c99 import PRECISIONS, Precision, define_real, literal, reads
 from flypend.compile.record import Record
 from flypend.errors import InputError
 from flypend.export import records, vectors
@@ -68,7 +69,7 @@ def export_c(
     vehicle : Vehicle
         What it flies.
     out : str or Path
-        Folder that receives the files; it may exist.
+        Folder that receives the files. It may exist, with files of the same names if an export wrote them.
     precision : "double" or "float"
         Type of every number.
     rate : float
@@ -89,12 +90,13 @@ def export_c(
     InputError
         If `law` is not a `Law`, or uses the time itself or a function other than the square root; if the vehicle's
         rotors do not share thrust and yaw equally; if the precision is unknown or the rate out of range; or if the
-        folder cannot be written.
+        folder cannot be written, or has files of these names that no export wrote.
     """
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, written in symbols", repr(law))
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle))
+    check_folder(out, BESIDE)
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     made = interface(law, vehicle, rate, sensors_called(sensors, "sensors"))
@@ -107,6 +109,17 @@ def export_c(
             warnings.warn(f"the exported law flies {vehicle.name} poorly: {found.poor}", stacklevel=2)
     write_texts(out, texts)
     return Path(out)
+
+
+def check_folder(out: str | Path, names: Iterable[str]) -> None:
+    """Raise InputError if the folder `out` has a file of one of `names`, and no README.md that an export wrote."""
+    try:
+        written = "ritten by flypend " in (Path(out) / "README.md").read_text(encoding="utf-8", errors="replace")
+    except (OSError, ValueError):
+        written = False
+    for path in (Path(out) / name for name in names):
+        if not written and os.path.lexists(path):
+            raise InputError(str(path), "nothing, or a folder that an export wrote", "another file")
 
 
 def core(made: Interface, precision: Precision) -> dict[str, str]:
@@ -141,6 +154,7 @@ def values_of(made: Interface, precision: Precision) -> dict[str, Any]:
         "vehicle": ascii_of(vehicle.name),
         "version": metadata.version("flypend"),
         "precision": precision,
+        "real": define_real(precision),
         "memory": offsets(made.memory, "MEMORY"),
         "rotors": str(made.rotors.length),
         "follows": str(int(made.follows)),
@@ -239,6 +253,8 @@ def _vectors(made: Interface, precision: Precision) -> dict[str, str]:
     """What the template of the test vectors takes."""
     found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
     flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision, made.law)
+    if not all(np.isfinite(each).all() for each in flights):
+        raise InputError("rate", "one at which flights stay finite", f"{made.loop.sampled.rate:g} Hz")
     answered = (records.STATE, records.REFERENCE, records.WRENCH, made.rotors)
     flown = (records.MEASUREMENT, records.PATH, made.rotors)
     return {

@@ -64,7 +64,7 @@ def _open(out: Path) -> Path:
         raise InputError(str(out), "a folder", "a file" if out.exists() else "a link that leads nowhere")
     try:
         return Path(tempfile.mkdtemp(prefix=f".{out.name}-partial-", dir=_beside(out)))
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise _unwritable(out, error) from None
 
 
@@ -81,5 +81,5 @@ def _check_free(target: Path, out: Path) -> None:
             raise InputError(str(out / folder), "a folder or nothing", "a file")
 
 
-def _unwritable(out: Path, error: OSError) -> InputError:
-    return InputError(str(out), "a folder that can be written", error.strerror or error)
+def _unwritable(out: Path, error: Exception) -> InputError:
+    return InputError(str(out), "a folder that can be written", getattr(error, "strerror", None) or error)

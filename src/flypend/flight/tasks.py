@@ -25,6 +25,7 @@ TASKS: Mapping[str, str] = {
     "level": "level vehicle at rest, at any heading, the rod in any direction",
     "random": "any attitude and rod, rates up to 3 rad/s, speeds up to 2 m/s",
 }
+LEAST_RATE = 0.9  # share of starts from which a law that can fly a task succeeds
 LEANS = np.radians(np.arange(5.0, 61.0, 5.0))
 ASKEW = 0.02  # rad, how far a hanging rod is from straight down: none hangs better
 TICK = 0.02  # s, at which leans are sampled

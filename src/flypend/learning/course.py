@@ -42,7 +42,7 @@ class Course:
     Parameters
     ----------
     vehicle : Vehicle
-        The vehicle, with rotors that have a lag.
+        The vehicle, with rotors that have a lag; kept in units of commanded force.
     period, duration : float
         Control period and length of a flight, s.
     excursion : float
@@ -67,6 +67,9 @@ class Course:
     bands: bool = False
     sensors: Sensors | None = None
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vehicle", self.vehicle.commanded())
+
     @property
     def steps(self) -> int:
         """Control periods of a flight."""
@@ -75,7 +78,7 @@ class Course:
     @property
     def weights(self) -> Any:
         """Weights (steps,) of the distance from hover."""
-        weights, last = np.full(self.steps, self.throughout / self.steps), self.steps // 3
+        weights, last = np.full(self.steps, self.throughout / self.steps), max(1, self.steps // 3)
         weights[-last:] += self.last / last
         return weights
 
@@ -103,8 +106,9 @@ class Machines:
         """Return the vehicle of `course` as written; with bands, `DRAWN` others by `seed`."""
         rng, rows = np.random.default_rng([seed, 3]), [machine_of(course, Sampled(), 0.0)]
         if course.bands:
+            latest = min(UNFOUND, course.period)
             rows = [
-                machine_of(course, draw_world(course.vehicle, Sampled(), rng), rng.uniform(0, UNFOUND))
+                machine_of(course, draw_world(course.vehicle, Sampled(), rng), rng.uniform(0, latest))
                 for _ in range(DRAWN)
             ]
         return cls(course, Flown(*map(np.array, zip(*rows, strict=True))))

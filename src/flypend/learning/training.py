@@ -15,7 +15,7 @@ from flypend import errors
 from flypend.errors import InputError
 from flypend.files.arrays import read_arrays, save_arrays
 from flypend.files.schema import Field
-from flypend.flight.tasks import touches
+from flypend.flight.tasks import free_starts
 from flypend.laws.learned import MOST_WEIGHTS, Policy
 from flypend.learning.course import Course, Machines
 from flypend.learning.flights import Costs, Flights
@@ -249,9 +249,7 @@ def rate_share(i: int, count: int) -> float:
 
 def starts(vehicle: Vehicle, rng: np.random.Generator, count: int) -> Any:
     """Return random starts (count, 24 + n) in own units, with free rods and rotors at their least."""
-    n, found = len(vehicle.rotor_spins), State.random(rng, count)
-    while not np.all(free := ~touches(vehicle, found)):
-        found = State.trusted(np.concatenate([found.packed()[free], State.random(rng, count).packed()])[:count])
+    n, found = len(vehicle.rotor_spins), free_starts(vehicle, State.random, rng, count)
     forces = np.full((count, n), vehicle.rotor_limits[0])
     return np.concatenate([found.packed(), forces], axis=1) / Units.of(vehicle).states(n)
 

@@ -69,7 +69,8 @@ RULES: tuple[Rule, ...] = (
     ),
     Rule(
         "thrust of all rotors over weight", "multirotors have 1.5 to 15",
-        lambda v: len(v.rotor_spins) * v.rotor_limits[1] / ((v.mass + v.bob_mass) * EARTH), 2.0, 0.02, 200.0,
+        lambda v: v.thrust_scale * len(v.rotor_spins) * v.rotor_limits[1] / ((v.mass + v.bob_mass) * EARTH),
+        2.0, 0.02, 200.0,
         (("mass", MASSES), ("bob_mass", MASSES), ("rotor_limits", FORCES)),
     ),
     Rule(

@@ -397,7 +397,7 @@ _NUMBERS: dict[str, dict[str, Any]] = {
     "gravity": {"at_least": 0, "unit": "m/s²"}, "pivot_damping": {"at_least": 0, "unit": "N m s"},
     "pivot_friction": {"at_least": 0, "unit": "N m"}, "rod_spin": {"unit": "rad/s"},
     "rod_spin_inertia": {"at_least": 0, "unit": "kg m²"}, "rotor_lag": {"at_least": 0, "unit": "s"},
-    "thrust_scale": {"above": 0},
+    "thrust_scale": {"at_least": 0.05, "at_most": 20},
 }  # fmt: skip
 
 

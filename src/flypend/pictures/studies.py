@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from flypend.flight.tasks import LEAST_RATE
 from flypend.palette import GREY, SERIES
 from flypend.pictures.style import PAGE, SMALL, distribution, new_figure, plain, rule
 from flypend.studies.compare import Comparison
 from flypend.studies.ladder import Ladder
-from flypend.studies.margins import LEAST_RATE, Margin
+from flypend.studies.margins import Margin
 
 if TYPE_CHECKING:
     from flypend.studies.check import Check

@@ -28,7 +28,10 @@ def draw_world(vehicle: Vehicle, plant: Sampled, rng: np.random.Generator) -> Sa
 
 
 def world_of(vehicle: Vehicle, plant: Sampled, found: Mapping[str, Any]) -> Sampled:
-    """Return `plant` for `vehicle` if some of its numbers, named as its bands are, are `found` to be others."""
+    """Return `plant` for `vehicle` if some of its numbers, named as its bands are, are `found` to be others.
+
+    What is found replaces the plant's own spin_up, sag, delay, strength and pivot_offset, and multiplies its mismatch.
+    """
     written = {name: getattr(vehicle, name) for name in ("mass", "bob_mass", "rod_length", "drag_ratio", "rotor_lag")}
     factors = {name: found[name] / value for name, value in written.items() if name in found and value > 0}
     if "inertia" in found:

@@ -16,13 +16,13 @@ from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.feasibility import feasibility
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import task_starts
+from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import inverted
 from flypend.model import Vehicle
 from flypend.model.rod import stretch
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
-from flypend.studies.margins import LEAST_RATE, Count
+from flypend.studies.margins import Count
 
 RUNS, DURATION = 100, 30.0  # flights of a changed vehicle, and seconds of each, as in a check
 # Factors of each number, from a small change to the largest that leaves the machine recognisable, and how to make it.
@@ -127,21 +127,20 @@ def changes_of(
     seed: int = 1,
     progress: Callable[[str, int, int], Any] = lambda *_: None,
 ) -> tuple[Change, ...]:
-    """Return for each kind of `CHANGES` the smallest that lets the inverted law fly `vehicle`, or the largest tried.
+    """Return for each kind of `CHANGES` the largest, or where it lets the inverted law fly, the smallest that does.
 
     If no kind works alone, the last is all of them at once. `plant`, `seed` and `progress` as in `advise`.
     """
     world, found = plants.as_sampled(plant), []
-    for done, (name, (factors, _)) in enumerate(CHANGES.items()):
-        progress("changes", done, len(CHANGES) + 1)
-        if not np.any(getattr(vehicle, name)):
-            continue
+    known = {name: factors for name, (factors, _) in CHANGES.items() if np.any(getattr(vehicle, name))}
+    for done, (name, factors) in enumerate(known.items()):
+        progress("changes", done, len(known) + 1)
         largest = _fly(vehicle, {name: factors[-1]}, world, seed)
         smaller = (_fly(vehicle, {name: factor}, world, seed) for factor in factors[:-1])
         found.append(next((one for one in smaller if one.works), largest) if largest.works else largest)
     if not any(one.works for one in found):
-        found.append(_fly(vehicle, {name: factors[-1] for name, (factors, _) in CHANGES.items()}, world, seed))
-    progress("changes", len(CHANGES) + 1, len(CHANGES) + 1)
+        found.append(_fly(vehicle, {name: factors[-1] for name, factors in known.items()}, world, seed))
+    progress("changes", len(known) + 1, len(known) + 1)
     return tuple(found)
 
 

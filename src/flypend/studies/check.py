@@ -15,7 +15,7 @@ from flypend.flight.criterion import Criterion
 from flypend.flight.ensemble import Ensemble
 from flypend.flight.feasibility import Feasibility, feasibility
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import fly_tasks, task_starts
+from flypend.flight.tasks import LEAST_RATE, fly_tasks, task_starts
 from flypend.laws import AnyLaw, BoundLaw, inverted
 from flypend.laws.law_error import LawError
 from flypend.model import State, Vehicle
@@ -26,7 +26,7 @@ from flypend.plants.bands import check_bands
 from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import fly_within
 from flypend.studies.compare import Progress, summary
-from flypend.studies.margins import LEAST_RATE, Count, Margin, quantities, search
+from flypend.studies.margins import Count, Margin, quantities, search
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -35,7 +35,7 @@ MARGIN_RUNS, SLOW_MARGIN_RUNS = 200, 12
 MOST_RUNS = 1_000_000  # minutes of flights; a sweep can be stopped and resumed
 GRADES = ("all", "most", "some", "none")  # of the starts of a task succeed; most: at least 90 %
 STARTS = 8  # of the random ones, to plan from where a law fails
-MOST, HARDLY_ANY = 0.9, 0.1  # shares of them
+HARDLY_ANY = 0.1  # share of them
 LEAST_DURATION = 10.0  # s, of a flight for a margin, or twice what 95 % need to settle if that is more
 
 
@@ -262,7 +262,7 @@ def describe_plans(plans: PlanEnsemble, law: str) -> str:
     """Return in a sentence what the `plans` say about a vehicle on which the `law` fails."""
     count, share = int(plans.success.sum()), float(plans.success.mean())
     found = f"plans reach inverted hover from {count} of {len(plans)} random starts"
-    if share >= MOST:
+    if share >= LEAST_RATE:
         return f"{found}: the limit is the {law} law's, not the vehicle's"
     if share <= HARDLY_ANY:
         return f"{found}: the limit may be the vehicle's, not the {law} law's"

@@ -14,7 +14,7 @@ from flypend.errors import InputError
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import task_starts
+from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import State, Vehicle
 from flypend.plants import PRESETS, SUITES, AnyPlant, Sampled
@@ -22,7 +22,7 @@ from flypend.plants.bands import world_of
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
 from flypend.studies.compare import Progress
-from flypend.studies.margins import LEAST_RATE, Count, count_of, fly_beside, for_each
+from flypend.studies.margins import Count, count_of, fly_beside, for_each
 from flypend.studies.trial import is_up, knock_on
 
 # Half widths, relative, of the bands of a vehicle that has none: weighed and measured in haste.
@@ -302,7 +302,7 @@ def _fly_tasks(
             if not len(mine):
                 continue
             one = flight.through(knock_on(vehicle, world, size, POKE_PERIOD)).replace(
-                starts=mine.in_frame(law.e3), seed=(flight.seed or 0) + place,
+                starts=mine.in_frame(law.e3), seed=(flight.seed or 0) + place * len(some),
             )  # fmt: skip
             if name == "pokes":
                 one = one.replace(duration=2 * POKE_PERIOD, times=np.arange(0.0, 2 * POKE_PERIOD, SAMPLE))

@@ -10,6 +10,7 @@ import numpy as np
 
 from flypend import errors, plants, signals
 from flypend.errors import InputError
+from flypend.flight.tasks import LEAST_RATE
 from flypend.laws import Controller, Law
 from flypend.model import State, Vehicle
 from flypend.plants import MOTION_CAPTURE, PRESETS, ROTORS, AnyPlant, Sampled
@@ -92,6 +93,7 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
         found["ground one radius below"] = ROTORS.replace(ground=-vehicle.body.disc_radius)
     if known:
         found["air"] = ROTORS.replace(air="all")
+    vehicle = vehicle.commanded()
     swing = 2 * SWING_DAMPING * vehicle.m * vehicle.l * np.sqrt(vehicle.g * vehicle.l)
     found["viscous friction"] = ROTORS.replace(pivot_damping=float(swing))
     found["dry friction"] = ROTORS.replace(pivot_friction=float(DRY_SHARE * vehicle.m * vehicle.g * vehicle.l))
@@ -152,7 +154,7 @@ class Ladder:
 
     rungs: dict[str, Comparison]
 
-    def broken(self, law: str, below: float = 0.9) -> list[str]:
+    def broken(self, law: str, below: float = LEAST_RATE) -> list[str]:
         """Return the rungs on which the success rate of `law` is less than `below`."""
         return [rung for rung, comparison in self.rungs.items() if comparison.ensembles[law].rate < below]
 

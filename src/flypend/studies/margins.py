@@ -14,12 +14,12 @@ from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight
+from flypend.flight.tasks import LEAST_RATE
 from flypend.model import Vehicle
 from flypend.plants import MOTION_CAPTURE, Noise, Sampled
 from flypend.plants.plant import LONGEST_DELAY, MOST_IN_TRANSIT
 from flypend.signals.polling import result_of, threads
 
-LEAST_RATE = 0.9  # success rate at which a margin ends
 # A search stops once the boundary is known to this share of it, or to be below this share of its first step.
 RESOLUTION, LEAST_STEP = 0.12, 1 / 16
 SEARCHES = 2  # searches at a time: while one compiles in Python, the other does in LLVM, or flies

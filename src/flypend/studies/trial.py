@@ -18,7 +18,7 @@ from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
 from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight, bound_to
-from flypend.flight.tasks import task_starts
+from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
@@ -138,11 +138,11 @@ def trial(
     worlds = {
         name: {factor: world_with(factor) for factor in FACTORS} for name, world_with in swept(vehicle, world).items()
     }  # before anything flies: one may be out of range
-    if fly_many(flight, workers=workers).rate < 0.9:
+    if fly_many(flight, workers=workers).rate < LEAST_RATE:
         flight = flight.replace(duration=30.0)
     again = np.resize(np.arange(len(starts.get("hanging", random))), flight.runs)
     from_rest = starts.get("hanging", random)[again].in_frame(bound.e3)
-    hit = flight.through(knock_on(vehicle, world, speed, DURATION / KNOCKS))
+    hit = flight.through(knock_on(flight.vehicle, world, speed, DURATION / KNOCKS))
     sampled = hit.replace(starts=from_rest, duration=DURATION, times=np.arange(0.0, DURATION, SAMPLE))
     knocked = fly_many(sampled, workers=workers)
     progress("knocks", 1, 1)

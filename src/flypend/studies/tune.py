@@ -315,10 +315,12 @@ class _Task:
             flight = flight.replace(seed=(flight.seed or 0) + 2**32)
         starts = design(self.study, 0, runs, stream).packed
         found = []
-        for own, world in ((starts[i :: len(worlds)], world) for i, world in enumerate(worlds[:runs])):
+        for i, world in enumerate(worlds[:runs]):
+            own, seed = starts[i :: len(worlds)], (flight.seed or 0) + i * runs * len(values)
             gains = dict(zip(self.names, np.repeat(values, len(own), axis=0).T, strict=True))
             packed = State.trusted(np.tile(own, (len(values), 1)))
-            flown = fly_many(flight.replace(starts=packed, gains=gains, plant=world), workers=workers).columns
+            one = flight.replace(starts=packed, gains=gains, plant=world, seed=seed)
+            flown = fly_many(one, workers=workers).columns
             found.append({name: column.reshape(len(values), len(own)) for name, column in flown.items()})
         return {name: np.concatenate([one[name] for one in found], axis=1) for name in found[0]}
 

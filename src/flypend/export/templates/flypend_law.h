@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-typedef $precision flypend_real;
+$real
 
 #define FLYPEND_ROTORS $rotors
 /* 1 if the law reads a reference. */
@@ -82,7 +82,8 @@ typedef struct {
     flypend_scratch scratch;
 } flypend_board;
 
-/* What flypend proposes for this vehicle. */
+/* What flypend proposes for this vehicle. Masses and inertia are divided by its thrust_scale, since rotor forces are in
+ * newtons as commanded. */
 extern const flypend_gains flypend_default_gains;
 extern const flypend_params flypend_default_params;
 

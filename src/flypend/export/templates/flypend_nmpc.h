@@ -9,7 +9,7 @@
  * rate. Predict it to the time at which a command acts, and add that delay to t.
  *
  * No heap, no recursion, and sqrt is all that it needs of a library. The work of a call is bounded: an iteration tries
- * $tries lengths of its step at most. If flypend_law.h is included too, include it first. */
+ * $tries lengths of its step at most. */
 #ifndef FLYPEND_NMPC_H
 #define FLYPEND_NMPC_H
 
@@ -19,9 +19,11 @@
 #define FLYPEND_NMPC_TICK $tick /* s */
 #define FLYPEND_NMPC_DURATION $duration /* s; then a law hovers */
 
-#ifndef FLYPEND_LAW_H
-typedef $precision flypend_real;
+#ifdef __cplusplus
+extern "C" {
 #endif
+
+$real
 
 /* Lengths: of a state with rotor forces, of its coordinates, of the inequalities of a stage, and so on. All stages are
  * those of the plan and hover behind it; the horizon has at most FLYPEND_NMPC_STAGES. */
@@ -92,4 +94,7 @@ int flypend_nmpc_command(flypend_nmpc *nmpc, flypend_real t, const flypend_real 
  * number. Unless it returns 0, the plan that is flown stays as it is. */
 int flypend_nmpc_improve(flypend_nmpc *nmpc, flypend_real t, const flypend_real *state, const flypend_real *rotors);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

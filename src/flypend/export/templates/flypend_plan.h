@@ -11,11 +11,18 @@
 #define FLYPEND_PLAN_STAGES $stages
 #define FLYPEND_PLAN_DURATION $duration /* s; then it hovers */
 
-typedef $precision flypend_real;
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+$real
 
 /* Rotor forces (N), within their limits, for a state and the forces of the rotors at time t (s), before 0 as at 0.
  * Returns 0; or 1, and leaves `command`, if rod or pivot are too far from the plan, an input is not a finite number, or
  * the answer would not be: then another law has to take over, for good. */
 int flypend_plan_command(flypend_real t, const flypend_real *state, const flypend_real *rotors, flypend_real *command);
 
+#ifdef __cplusplus
+}
+#endif
 #endif

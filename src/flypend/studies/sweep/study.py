@@ -133,7 +133,9 @@ class Study:
         if not axes_:
             return self.flight.plant
         place = np.unravel_index(cell, self.shape)
-        table = deepcopy(self.settings["plant"])
+        table, sensors = deepcopy(self.settings["plant"]), getattr(self.flight.plant, "sensors", None)
+        if sensors is not None and any(axis.name.startswith("sensors.") for axis in axes_):
+            table["sensors"] = sensors.to_dict()  # they may be a name, or those of the base
         for axis, index in zip(axes_, place, strict=False):
             *outer, name = axis.name.split(".")
             inner = table

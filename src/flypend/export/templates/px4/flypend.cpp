@@ -313,12 +313,14 @@ void Flypend::read_topics(hrt_abstime now)
 
 	/* Other arrays share the topic. */
 	if (_bob_sub.update(&_array) && (strncmp(_array.name, "bob", sizeof(_array.name)) == 0) && is_finite(_array.data)) {
-		if (is_old(_bob_time, _array.timestamp, STALE)) {
-			_bob_begun = _array.timestamp;
+		const hrt_abstime seen = (_array.timestamp < now) ? _array.timestamp : now;
+
+		if (is_old(_bob_time, seen, STALE)) {
+			_bob_begun = seen;
 		}
 
 		flypend_flip(_array.data, _bob);
-		_bob_time = (_array.timestamp < now) ? _array.timestamp : now;
+		_bob_time = seen;
 		_bob_is_new = true;
 	}
 }
@@ -357,7 +359,7 @@ Flypend::Obstacle Flypend::obstacle(hrt_abstime now) const
 		return POSITION;
 	}
 
-	if (is_old(_bob_time, now, STALE) || !(_rod[$rod_numbers - 1] >= 0) || (!_flies && (_bob_time - _bob_begun < SETTLE))) {
+	if (is_old(_bob_time, now, STALE) || !(_rod[$rod_numbers - 1] >= 0) || (!_flies && (_bob_time < _bob_begun + SETTLE))) {
 		return BOB;
 	}
 

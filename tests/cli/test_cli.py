@@ -499,7 +499,7 @@ def test_an_interrupted_run_leaves_nothing_new(old, name, code):
         command, cwd=old, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
     ) as process:
         start = time.monotonic()
-        while not list(old.glob("out/.out-partial-*/run.nc")):  # the figures and movies come after it
+        while not list(old.glob("out/.flypend-partial-*/run.nc")):  # the figures and movies come after it
             assert process.poll() is None, process.stdout.read()
             assert time.monotonic() < start + 60
             time.sleep(0.01)

@@ -321,3 +321,11 @@ def test_the_oldest_versions_that_are_flown_are_the_bounds():
         if here[name].release[:2] != (*version.release, 0)[:2]
     }
     assert not late
+
+
+def test_a_system_without_a_fork_has_no_laboratory(call, monkeypatch):
+    monkeypatch.setattr("multiprocessing.get_all_start_methods", lambda: ["spawn"])
+    code, complaints = call("lab", "--no-browser")
+    assert code == 2
+    (line,) = complaints
+    assert "lab: expected a system that forks processes, or --html" in line

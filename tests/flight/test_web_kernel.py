@@ -1,7 +1,10 @@
 """Kernels as WebAssembly, flown by Node.js through the engine of the pages, beside native ones."""
 
+import json
 import subprocess
+from pathlib import Path
 
+import casadi as ca
 import numpy as np
 import pytest
 from by_page import DURATION, EXACT, OTHERS, PAIRS, SEED, ended_by_page, flown_by_page
@@ -10,7 +13,9 @@ from llvmlite import ir
 import flypend as fp
 from flypend.compile import wasm
 from flypend.compile.llvm import jit
+from flypend.compile.llvm.emit import Lanes, Module, define
 from flypend.compile.llvm.target import wasm32
+from flypend.compile.program import LIBRARY, LIBRARY_2, lower
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.kernels.sampled import sampled_kernel
 from flypend.flight.kernels.web import web_module
@@ -204,3 +209,28 @@ def test_what_the_c_library_would_give_is_asked_of_the_page(tmp_path):
     """
     said = subprocess.run(["node", "-e", script], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
     assert said.strip() == "true"
+
+
+def test_the_page_has_every_function_of_the_c_library(tmp_path):
+    """Each that a law may call, by the engine of the pages, at places in its domain."""
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    one = [getattr(ca, name)(x + (name == "acosh")) for name in LIBRARY]
+    two = [x**y if name == "pow" else getattr(ca, name)(x, y) for name in LIBRARY_2]
+    every, places = ca.Function("every", [x, y], [ca.vertcat(*one, *two)]), [[0.03, 0.2], [0.7, 3.1], [0.99, -0.4]]
+    made = Module()
+    define(Lanes(made, 1, target=wasm32()), lower(every), visible=True)
+    (tmp_path / "a.wasm").write_bytes(wasm.module(jit.compile_module(made, wasm32()), ["every"]))
+    (tmp_path / "a.mjs").write_text(f"""
+        import {{ readFileSync }} from "node:fs";
+        import {{ Engine }} from {json.dumps((Path(__file__).parents[2] / "web/src/engine.js").as_uri())};
+        const engine = await Engine.from(new WebAssembly.Module(readFileSync("a.wasm")));
+        const [x, y] = [1, 1].map((length) => engine.reserve(Float64Array, length));
+        const out = engine.reserve(Float64Array, {len(one) + len(two)});
+        console.log(JSON.stringify({json.dumps(places)}.map((place) => {{
+            [x.view()[0], y.view()[0]] = place;
+            engine.call("every", x, y, out);
+            return Array.from(out.view());
+        }})));
+    """)
+    said = subprocess.run(["node", "a.mjs"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    np.testing.assert_allclose(json.loads(said), [every(*place).full().ravel() for place in places], rtol=1e-14)

@@ -35,7 +35,7 @@ from flypend.lab.answers import answer, engine_of
 from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.export import python, toml
 from flypend.lab.flying import fly, poke_state, region
-from flypend.lab.server import LARGEST_MESSAGE, Laboratory
+from flypend.lab.server import LARGEST_MESSAGE, Laboratory, serve
 from flypend.lab.session import Slot, read
 from flypend.lab.setting import Poke, setting_of
 from flypend.lab.shares import Shares
@@ -183,7 +183,7 @@ def flown(step, path=None, value=None):
         reduce(dict.__getitem__, keys, setting)[last] = value
     read = setting_of(setting)
     run = fly(read)
-    return run, verdict(run, tune_loop(read).criterion)
+    return run, verdict(run)
 
 
 def dragged(step, values):
@@ -253,18 +253,18 @@ def test_a_random_start_is_its_seed():
 
 def test_the_verdict_names_what_the_law_is_to_do():
     setting = setting_of(asked(duration=6.0))
-    told = verdict(fly(setting), tune_loop(setting).criterion)
+    told = verdict(fly(setting))
     judged = metrics(fly(setting))
     assert told["good"] is judged.success is True
     assert told["words"] == f"upright after {judged.settling:.1f} s, excursion {round(judged.excursion, 2):.3g} m"
     preset = setting_of(OFFER["experiments"]["5"])
-    told = verdict(fly(preset), tune_loop(preset).criterion)
+    told = verdict(fly(preset))
     assert "rod hangs after" in told["words"]
     assert "vehicle fell" in told["words"]
     assert (told["good"], told["state"]) == (True, "recovering")  # the law keeps its promise, and the vehicle falls
     assert "upright" not in told["words"]
     singular = setting_of(OFFER["experiments"]["2"] | {"law": {"name": "printed", "gains": {}}})
-    assert verdict(fly(singular), tune_loop(singular).criterion)["words"].startswith("singular after ")
+    assert verdict(fly(singular))["words"].startswith("singular after ")
 
 
 @pytest.mark.parametrize("plant", ["rotors", "ideal"])
@@ -558,7 +558,7 @@ def test_a_map_is_made_of_the_flights():
     assert all(bool(cause) != one for cause, one in zip(chunk["cause"], good, strict=True))
     for i in (good.index(True), good.index(False)):
         setting = setting_of(wrong | {"start": START | {"y": chunk["y"][i], "y_dot": [0, 0, 0]}})
-        told = verdict(fly(setting), tune_loop(setting).criterion)
+        told = verdict(fly(setting))
         assert told["good"] == good[i]
         if good[i]:
             assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)
@@ -945,6 +945,16 @@ def test_whom_a_server_that_is_open_to_others_trusts():
     assert not laboratory.trusts("")
     assert not laboratory.trusts("[a")
     laboratory.close()
+    named = Laboratory("MyHost")
+    assert named.trusts("myhost:80")
+    assert named.trusts("MyHost:80")
+    named.close()
+
+
+def test_a_host_that_no_name_can_be_is_told_in_one_line():
+    with pytest.raises(fp.InputError, match=r"^--host and --port: .*label.*long") as told:
+        serve("a" * 70, browser=False, announce=lambda _: pytest.fail("served"))
+    assert "\n" not in str(told.value)
 
 
 def test_exports_are_toml_and_say_when_pokes_are_left_out():

@@ -593,6 +593,33 @@ def test_an_address_that_leads_nowhere_is_no_dead_end(visit, address, words):
     until(page, "document.querySelector('.notice').hidden")
 
 
+def test_a_first_flight_that_fails_is_told_once(chromium, tmp_path):
+    """And may be followed by one that does not."""
+    (tmp_path / "bad.py").write_text(
+        "import flypend as fp\n"
+        "def bad(t, state, vehicle):\n"
+        "    if t == 0 and state.y[2] < -0.9:\n"
+        "        raise ValueError('no rod may hang')\n"
+        "    return fp.Wrench(vehicle.weight, 0 * state.omega)\n",
+        encoding="utf-8",
+    )
+    server = Lab("--law", str(tmp_path / "bad.py:bad"))
+    page, asked = chromium.new_context(viewport=WIDE).new_page(), []
+    page.on("websocket", lambda socket: socket.on("framesent", lambda sent: asked.append('"fly"' in sent)))
+    page.goto(server.url)
+    expect(page.locator(".notice")).to_contain_text("no rod may hang")
+    page.wait_for_timeout(1000)
+    assert sum(asked) == 1
+    assert "address" not in page.locator(".notice").inner_text()
+    assert "last flight" not in page.locator(".notice").inner_text()
+    page.evaluate("flypend.pin()")  # nothing
+    page.locator(".starts").select_option("level")
+    shown(page)
+    expect(page.locator(".notice")).to_be_hidden()
+    page.context.close()
+    assert server.stop()[0] == 0
+
+
 def test_controls_come_before_the_picture_for_those_who_go_by_keys(visit):
     page = visit()
     page.locator("header button").last.focus()

@@ -1,5 +1,7 @@
 """Laws of one's own in the laboratory: chosen by name, flown compiled or step by step, read again when they change."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ from flypend.lab.own import OwnLaws
 from flypend.lab.setting import setting_of
 from flypend.lab.tuning import Stepped, tune_loop
 from flypend.laws import LawError
+from flypend.laws.learned import policy, save
 from flypend.settings.runfile import run_file
 
 TEXT = """
@@ -98,7 +101,7 @@ def test_what_is_not_symbolic_is_mapped_a_few_rods_at_a_time(own):
     assert isinstance(tune_loop(setting), Stepped)
     chunk = next(region(setting))
     assert (chunk["total"], chunk["done"], len(chunk["y"])) == (96, 2, 2)
-    assert verdict(fly(setting), tune_loop(setting).criterion)["good"] is False
+    assert verdict(fly(setting))["good"] is False
 
 
 def test_a_file_that_changes_is_flown_as_it_stands(own, tmp_path):
@@ -113,6 +116,18 @@ def test_a_file_that_changes_is_flown_as_it_stands(own, tmp_path):
     (reply,) = answer({"kind": "fly", "number": 1, "setting": asked("hold")}, own)
     assert (reply["kind"], reply["number"]) == ("error", 1)
     assert "mine.py:6: NameError" in reply["message"]
+
+
+def test_a_policy_whose_file_changes_is_read_again(tmp_path):
+    path = tmp_path / "mine.npz"
+    learned = policy("hehn2011")
+    save(learned, path)
+    own = OwnLaws([str(path)])
+    (name,) = own
+    before = own[name]
+    assert own[name] is before
+    save(replace(learned, W_3=2 * learned.W_3), path)
+    assert own[name] is not before
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ import pytest
 
 import flypend as fp
 from benchmarks.frames import AT_REST, UNDRAWN
+from flypend.envs import World
 from flypend.flight.kernels.pieces import pieces_kernel
 from flypend.flight.live import live_data, live_loop
 from flypend.flight.simulate import Signals
@@ -574,6 +575,31 @@ def test_the_bob_is_pulled_by_pointer_and_by_key(visit, run):
     until(page, "() => !flypend.live().pulled")
 
 
+def test_the_camera_is_let_go_where_a_flight_goes_on_while_the_rod_is_held(visit, run):
+    page, seen = visit(run), []
+    page.evaluate("flypend.camera('overview')")
+    for held in (False, True):
+        page.locator(".starts").select_option("leaning")
+        shown(page)
+        page.evaluate("flypend.seek(0)")
+        until(page, "() => !document.querySelector('.handle').hidden")
+        if held:
+            page.wait_for_timeout(500)  # the camera glides
+            page.locator(".handle").hover()
+            page.mouse.down()
+            assert page.locator(".handle:active").count() == 1
+        page.evaluate("flypend.go(true)")
+        until(page, "() => flypend.live().tick > 50")
+        page.mouse.up()
+        page.evaluate("flypend.go(false)")
+        page.locator(".starts").select_option("hanging")
+        shown(page)
+        page.evaluate("flypend.seek(1)")
+        page.wait_for_timeout(1000)
+        seen.append([page.evaluate("flypend.screen(0)")[name] for name in ("pivot", "bob")])
+    np.testing.assert_allclose(*seen, atol=1)
+
+
 def test_the_reference_is_moved_while_it_flies(visit, run):
     page = visit(run)
     page.evaluate("flypend.seek(6), flypend.go(true)")
@@ -751,6 +777,26 @@ def test_a_tiny_window_shows_what_it_can(visit, run, size):
     assert page.evaluate("flypend.frames().count") > 0
 
 
+def test_what_was_asked_for_meanwhile_is_flown_after_an_error(chromium, run, tmp_path):
+    page = chromium.new_page()
+    page.add_init_script("""const post = Worker.prototype.postMessage;
+        let flights = 0;
+        Worker.prototype.postMessage = function (asked) {
+            if (asked.kind !== "fly" || ++flights !== 2) return post.call(this, asked);
+            const data = { kind: "error", number: asked.number, message: "broken" };
+            setTimeout(() => this.dispatchEvent(new MessageEvent("message", { data })), 500);
+        };""")
+    run.to_html(tmp_path / "a.html", live=True)
+    page.goto((tmp_path / "a.html").as_uri())
+    shown(page)
+    page.evaluate(AT_REST)
+    for value in ("230", "260"):  # while the first is under way
+        page.locator("[data-path='law.gains.rod_damping'] input").fill(value)
+    shown(page)
+    assert_flies(page, run)
+    page.close()
+
+
 # What one takes away --------------------------------------------------------------------------------------------------
 
 
@@ -852,6 +898,9 @@ def test_what_no_page_can_fly_is_told_in_a_line(run, tmp_path):
     }
     run.save(tmp_path / "run.nc")
     flights["session"] = fp.load(tmp_path / "run.nc")
+    world = World()
+    world.reset(seed=0)
+    flights["an environment"] = world.unwrapped.trajectory()
     for word, flight in flights.items():
         with pytest.raises(fp.InputError, match=word) as told:
             flight.to_html(tmp_path / "no.html", live=True)

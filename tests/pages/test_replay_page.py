@@ -471,6 +471,21 @@ def test_a_movie_can_be_given_up(visit, up):
     until(page, "document.querySelector('[data-name=movie]').getAttribute('aria-pressed') === 'false'")
 
 
+def test_a_movie_that_cannot_be_encoded_is_told(visit, up):
+    page = visit(up)
+    page.evaluate("VideoEncoder.isConfigSupported = async () => ({ supported: false })")
+    page.keyboard.press("m")
+    until(page, "document.querySelector('.note').textContent.includes('encodes no WebM')")
+    assert page.get_by_role("button", name="Movie").get_attribute("aria-pressed") == "false"
+    page.evaluate("""() => {
+        VideoEncoder.isConfigSupported = async () => ({ supported: true });
+        VideoEncoder.prototype.configure = () => {};
+    }""")  # then it refuses to encode
+    page.keyboard.press("m")
+    until(page, "document.querySelector('.note').textContent.includes('encode')")
+    until(page, "document.querySelector('[data-name=movie]').textContent === 'Movie'")
+
+
 # Cameras -------------------------------------------------------------------------------------------------------------
 
 
@@ -653,6 +668,7 @@ def test_how_a_run_ended_is_said_when_it_has(visit, singular, down):
 def test_other_runs_can_be_put_into_the_page(visit, up, lqr, down):
     page = visit(up, ghost=lqr, layout="beside")
     page.evaluate("flypend.camera('side'), flypend.seek(1.7)")
+    page.locator(".line").focus()
     memory = {down: [], up: []}  # each has gains of its own to tell
     for run in [down, up] * 3:
         page.evaluate("run => flypend.load([run])", replay.pack(run, verdict(run)))
@@ -664,6 +680,7 @@ def test_other_runs_can_be_put_into_the_page(visit, up, lqr, down):
     assert page.locator(".legend p").count() == page.locator(".view").count() == 1
     assert page.get_by_role("button", name="Side by side").is_hidden()
     assert all(len(set(counts)) == 1 for counts in memory.values())  # nothing is left behind
+    assert page.evaluate("document.activeElement.className") == "line"
     page.evaluate("runs => flypend.load(runs)", [replay.pack(up, verdict(up)), replay.pack(lqr, verdict(lqr))])
     page.get_by_role("button", name="Side by side").click()
     page.evaluate("run => flypend.load([run])", replay.pack(lqr, verdict(lqr)))

@@ -5,7 +5,7 @@ import pytest
 
 import flypend as fp
 from flypend.flight.live import live_loop
-from flypend.pages.offers import _last_good, _reach, plant_sliders
+from flypend.pages.offers import _last_good, _reach, gain_sliders, plant_sliders
 from flypend.plants import Plant, Wind
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -41,3 +41,11 @@ def test_a_slider_of_a_negative_gain_reaches_as_far_to_either_side():
 def test_a_slider_ends_where_its_values_begin_to_be_refused():
     assert _last_good(lambda value: value > 0.3, 0.1, 1.0) == pytest.approx(0.3, rel=1e-3)
     assert _last_good(lambda value: value > 1.0, 0.1, 1.0) == 1.0
+
+
+def test_a_slider_of_a_gain_that_is_given_as_0_is_not_logarithmic():
+    law = fp.laws.inverted(throw_speed=0).bind(VEHICLE)
+    (found,) = (one for one in gain_sliders(law, VEHICLE, law.gains) if one["path"] == "law.gains.throw_speed")
+    assert (found["value"], found["low"], found["log"]) == (0, 0, False)
+    usual = fp.laws.inverted().bind(VEHICLE)
+    assert all(one["log"] for one in gain_sliders(usual, VEHICLE, usual.gains) if one["low"] > 0)

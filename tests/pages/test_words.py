@@ -3,12 +3,13 @@
 import json
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import flypend as fp
-from flypend.flight.verdict import verdict
+from flypend.flight.verdict import fall, verdict
 from flypend.geometry import E3, norm
 from flypend.pages import replay
 from flypend.palette import PAGE, STATES
@@ -101,6 +102,16 @@ def test_recoveries_are_those_of_the_package(tmp_path):
             assert its["distance"] == pytest.approx(ours.distance, rel=1e-2, abs=1e-3)
             assert its["lost"] == pytest.approx(ours.height_lost, rel=1e-2, abs=1e-3)
     assert several >= 12
+
+
+def test_metres_are_written_as_a_page_writes_them():
+    for metres, words in (
+        (1960.4, "fell 1960 m"),
+        (-12345, "rose 12300 m"),
+        (0.004, "fell 0 m"),
+        (1.234, "fell 1.23 m"),
+    ):
+        assert fall(SimpleNamespace(x=np.array([[0, 0, 0], [0, 0, metres]]))) == f"vehicle {words}"
 
 
 def test_every_state_has_a_colour_in_both_themes():

@@ -1,11 +1,13 @@
 """Plans: they obey the equations and every limit, repeat bit for bit, and what cannot be is told in a line."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.flight.verdict import verdict
 from flypend.geometry import norm
 from flypend.planning import search
 from flypend.planning.constraints import broken
@@ -308,3 +310,14 @@ def test_a_plan_is_replayed_and_saved_like_a_run(swing_up, tmp_path):
     np.testing.assert_array_equal(fp.load(tmp_path / "plan.nc").x, swing_up.x)
     assert fp.metrics(run).excursion == swing_up.excursion
     assert "<html" in swing_up.to_html()
+
+
+def test_a_page_says_of_a_plan_what_the_plan_does(swing_up):
+    """A plan ends as soon as it hovers, which by the criterion of flights it would have to for a second."""
+    assert swing_up.status == "converged"
+    assert not fp.metrics(swing_up.trajectory).success
+    told = verdict(swing_up.trajectory)
+    assert (told["words"], told["good"], told["state"]) == (swing_up.summary, True, "done")
+    failed = verdict(replace(swing_up, status="failed", reason="too short").trajectory)
+    assert failed["words"].startswith("failed (too short): ")
+    assert (failed["good"], failed["state"]) == (False, "failed")

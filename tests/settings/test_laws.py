@@ -238,6 +238,13 @@ def test_a_file_is_read_again_and_may_import_its_neighbours(here):
     assert law_named("laws/new.py:f").values == {"lift": 2.5}
 
 
+def test_a_file_may_load_another_of_the_same_name(here):
+    (here / "mine.py").write_text(
+        "from flypend.settings.laws import law_named\nlaw = law_named('laws/mine.py:balance')\n", encoding="utf-8"
+    )
+    assert law_named("mine.py:law").name == "balance"
+
+
 @pytest.mark.parametrize("name", ["nmpc", "plan"])
 def test_constraints_of_plans_come_from_a_table(name, tmp_path):
     (tmp_path / "limits.py").write_text("def low(m):\n    return 2 - m.x[2]\n")

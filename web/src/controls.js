@@ -25,7 +25,8 @@ export class Player {
   /** Mark on the time line where a rod touched, and say what. */
   mark(flights) {
     const { clock } = this, track = this.line.parentElement;
-    track.replaceChildren(this.line, ...flights.filter((flight) => flight.verdict.part).map(({ end, verdict }) => {
+    for (const old of track.querySelectorAll(".touch")) old.remove(); // the line stays: it may be in focus
+    track.append(...flights.filter((flight) => flight.verdict.part).map(({ end, verdict }) => {
       const mark = document.createElement("i"), words = `${verdict.reason} at ${end.toFixed(2)} s`;
       Object.assign(mark, { className: "touch", role: "img", ariaLabel: words, title: words });
       mark.style.setProperty("--at", (end - clock.start) / (clock.end - clock.start || 1));

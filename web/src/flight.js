@@ -18,7 +18,7 @@ export function floats(base64) {
 }
 
 export class Flight {
-  /** `record` is one entry of `runs` that flypend.replay writes: facts about the run, and `columns`, arrays or in base64. */
+  /** `record` is one entry of `runs` that flypend.pages.replay writes: facts about the run, and `columns`, arrays or in base64. */
   constructor(record) {
     const { columns, ...facts } = record;
     Object.assign(this, facts);

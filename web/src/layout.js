@@ -11,7 +11,7 @@ export function frame(css, title) {
   const main = document.createElement("main");
   main.innerHTML = `
     <header><h1></h1><div class="legend"></div></header>
-    <section class="scene" aria-label="Flight"><canvas class="picture" role="img"></canvas><p class="note"></p><p class="invite" hidden></p><div class="low"></div></section>
+    <section class="scene" aria-label="Flight"><canvas class="picture" role="img"></canvas><p class="note" role="status"></p><p class="invite" hidden></p><div class="low"></div></section>
     <section class="plots" aria-label="Plots" tabindex="0"></section>
     <footer><div class="player"></div><div class="choices"></div></footer>`;
   document.body.append(main);

@@ -9,6 +9,9 @@ export const unit = (a) => {
   return a.map((value) => value / length);
 };
 
+/** The angle of a `cosine`, which rounding may have put beyond 1, in degrees. */
+export const degrees = (cosine) => (Math.acos(clamp(cosine, -1, 1)) * 180) / Math.PI;
+
 /** Cubic through the values a, b with the rates da, db at the ends of an interval of `step` seconds. */
 export function hermite(a, da, b, db, step, share) {
   const s = share, r = 1 - s;

@@ -3,7 +3,7 @@
 
 import { clear, lettering, move, write } from "./drawing.js";
 import { rise } from "./flight.js";
-import { indexBefore } from "./numbers.js";
+import { degrees, indexBefore } from "./numbers.js";
 import { DASHES } from "./series.js";
 import { axes, place, rings, way } from "./sphere.js";
 
@@ -15,8 +15,6 @@ const HTML = `<div class="globe"><canvas role="img"></canvas><i class="hand"></i
   <figcaption><button type="button" class="fold" title="The direction of the rod on its sphere (s)">Rod direction</button>
   <span class="lean"><output></output> from upright, <output></output> rad/s</span>
   <button type="button" class="over">⇅</button></figcaption>`;
-
-const degrees = (cosine) => Math.acos(Math.min(Math.max(cosine, -1), 1)) * 180 / Math.PI;
 
 export class Portrait {
   /** At the foot of the picture, in `parent`; `seek` is called with a time when the path is touched. */

@@ -25,7 +25,7 @@ export class Film {
     this.canvas = Object.assign(document.createElement("canvas"), { width: this.width, height: this.height });
   }
 
-  /** The movie from time `from` to `to` as a Blob, or null if it is given up. */
+  /** The movie from time `from` to `to` as a Blob, or null if it is given up. Throws if it cannot be encoded. */
   async shoot(from, to) {
     const { viewer, width, height, canvas } = this, { speed } = viewer.clock, chunks = [], codec = await this.#codec();
     const encoder = new VideoEncoder({ output: (chunk) => chunks.push(chunk), error: (error) => (this.given = error) });
@@ -42,6 +42,7 @@ export class Film {
     }
     if (!this.given) await encoder.flush();
     if (encoder.state !== "closed") encoder.close();
+    if (this.given instanceof Error) throw this.given;
     return this.given ? null : webm(chunks, { codec: codec.name, width, height, duration: (1000 * (frames + 1)) / RATE });
   }
 

@@ -1,4 +1,4 @@
-// Recoveries of a flight, counted as flypend.flight.recoveries counts them: each stretch outside the tolerances of the verdict,
+// Recoveries of a flight, counted as flypend.flight.metrics.recoveries counts them: each stretch outside the tolerances of the verdict,
 // until they hold again for as long as they have to.
 
 const SAME = 1e-9; // s

@@ -205,9 +205,12 @@ export class Viewer {
     this.filming = new Film(this, this.size, (share) => (button.textContent = `${Math.round(100 * share)} %`));
     this.parts.scene.classList.add("filming");
     this.movies.show("movie");
+    this.parts.note.textContent = "";
     try {
       const movie = await this.filming.shoot(from, clock.end);
       if (movie) save(movie, `${name}.webm`);
+    } catch ({ message }) {
+      this.parts.note.textContent = `There is no movie: ${message}`;
     } finally {
       Object.assign(this, { filming: null, since: null });
       button.textContent = "Movie";

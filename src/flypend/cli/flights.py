@@ -203,6 +203,10 @@ def lab(host: str, port: int, browser: bool, law: tuple[str, ...], html: Path | 
         console.print(f"The laboratory is in {bold(html)}.")
         return
     require("tornado", extra="lab", for_="lab")
+    from multiprocessing import get_all_start_methods
+
+    if "forkserver" not in get_all_start_methods():
+        raise InputError("lab", "a system that forks processes, or --html, which has no server", sys.platform)
     from flypend.lab.server import serve
     from flypend.settings.laws import law_named
 

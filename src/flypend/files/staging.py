@@ -11,6 +11,7 @@ from pathlib import Path
 
 from flypend import signals
 from flypend.errors import InputError
+from flypend.files.whole import check_name
 
 
 def check_writable(out: str | Path) -> None:
@@ -60,11 +61,12 @@ def staging(out: str | Path) -> Iterator[Path]:
 
 def _open(out: Path) -> Path:
     """Create a temporary folder on the same file system as `out`: inside it if it exists, otherwise beside it."""
+    check_name(out)
     if os.path.lexists(out) and not out.is_dir():
         raise InputError(str(out), "a folder", "a file" if out.exists() else "a link that leads nowhere")
     try:
-        return Path(tempfile.mkdtemp(prefix=f".{out.name}-partial-", dir=_beside(out)))
-    except (OSError, ValueError) as error:
+        return Path(tempfile.mkdtemp(prefix=".flypend-partial-", dir=_beside(out)))
+    except OSError as error:
         raise _unwritable(out, error) from None
 
 
@@ -81,5 +83,5 @@ def _check_free(target: Path, out: Path) -> None:
             raise InputError(str(out / folder), "a folder or nothing", "a file")
 
 
-def _unwritable(out: Path, error: Exception) -> InputError:
-    return InputError(str(out), "a folder that can be written", getattr(error, "strerror", None) or error)
+def _unwritable(out: Path, error: OSError) -> InputError:
+    return InputError(str(out), "a folder that can be written", error.strerror or error)

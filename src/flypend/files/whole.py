@@ -44,6 +44,15 @@ def check_file(path: str | Path, suffixes: Sequence[str], field: str = "path") -
         raise _DroppedError
 
 
+def check_name(path: Path) -> None:
+    """Raise InputError if no file can have the name `path`."""
+    try:
+        with suppress(OSError):
+            path.lstat()
+    except ValueError as error:
+        raise errors.InputError(ascii(str(path)), "a name that a file can have", error) from None
+
+
 def check_same(path: Path, content: bytes, what: str) -> None:
     """Raise InputError if another file than `what`, of this `content`, stands at `path`: it may hold someone's work."""
     if path.is_file() and path.read_bytes() != content:
@@ -63,6 +72,7 @@ def whole_file(path: str | Path, suffixes: Sequence[str], field: str = "path") -
     path = Path(path)
     if path.suffix.lower() not in suffixes:
         raise errors.InputError(field, "a file name ending in " + " or ".join(suffixes), str(path))
+    check_name(path)
     partial = path.with_name(f".{uuid4().hex}{path.suffix}")
     try:
         if path.is_dir():

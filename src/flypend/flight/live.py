@@ -68,7 +68,9 @@ def live_data(flight: Flight | None) -> dict[str, Any]:
 def live_loop(flight: Flight | None) -> Loop:
     """Return the loop of `flight` whose gains with sliders are inputs. Raises InputError if a page cannot fly it."""
     if flight is None:
-        raise InputError("live", "a run flown in this session", "one from a file, a plan or a change of frame")
+        raise InputError(
+            "live", "a run flown in this session", "one from a file, a plan, an environment or a change of frame"
+        )
     if isinstance(flight.plant, Sampled) and flight.plant.engine != "equations":
         raise InputError(
             "live", "a plant of the built-in equations, such as rotors", f"the plant {flight.plant.engine}"

@@ -50,7 +50,7 @@ class Trajectory:
     drift : (k, 3)
         Drift before projection in each of k accepted steps: | |y| − 1 |, |y · y_dot| and ‖RᵀR − 1‖.
     outcome : Outcome
-        Completed, diverged or singular, with time and reason.
+        Completed, diverged, singular or collided, with time and reason.
     e3 : "up" or "down"
         Direction of the frame's third axis.
     vehicle : Vehicle
@@ -63,6 +63,8 @@ class Trajectory:
         Dense output, from times to packed states; not saved to files.
     flight : Flight, optional
         What was flown, for pages that fly on; not saved to files.
+    planned : (str, bool), optional
+        What a plan says of itself, and whether it can be flown; not saved to files.
     """
 
     t: Numbers
@@ -85,6 +87,7 @@ class Trajectory:
     x_ref: Numbers = None
     interpolant: Callable[[Any], Any] | None = None
     flight: Flight | None = None
+    planned: tuple[str, bool] | None = None
 
     def __post_init__(self) -> None:
         if self.x_ref is None:

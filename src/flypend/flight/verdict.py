@@ -1,4 +1,4 @@
-"""How a flight ended, in one line for a page: by the criterion that the studies use."""
+"""How a flight ended, in one line for a page: by the criterion that the studies use, or as a plan says."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def goal(e3: E3Direction) -> Criterion:
     return Criterion() if e3 == "up" else Criterion(target="e3", position=np.inf)
 
 
-def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
-    """Judge `run` by `criterion`, by default the `goal` of its frame.
+def verdict(run: Run) -> dict[str, Any]:
+    """Judge `run` by the `goal` of its frame; a plan tells its own verdict.
 
     Returns
     -------
@@ -36,23 +36,26 @@ def verdict(run: Run, criterion: Criterion | None = None) -> dict[str, Any]:
         collided run touched, or None; `excess` (n,), by how much the samples exceed the tolerances, at most 0 within;
         `hold` (s), for how long the tolerances have to hold.
     """
-    criterion = criterion or goal(run.e3)
+    criterion = goal(run.e3)
     judged = metrics(run, criterion)
+    good = bool(judged.success)
     part = part_of(run.vehicle, run.outcome.reason)
     distance = f"excursion {_round(judged.excursion)} m" if run.e3 == "up" else fall(run)
-    if run.outcome.status != "completed":
+    if run.planned is not None:  # and ends once it has arrived
+        words, good = run.planned
+    elif run.outcome.status != "completed":
         time = run.outcome.time
         words = f"{run.outcome.status} {f'after {time:.3g} s' if time > 0 else 'at the start'}"
         if part is not None:
             words += f", {run.outcome.reason}"
-    elif not judged.success:
+    elif not good:
         words = f"{MISSED.get(judged.cause, judged.cause)} during the last second, {distance}"
     else:
         words = f"{POSE if run.e3 == 'up' else HANGS} after {judged.settling:.1f} s, {distance}"
     return {
         "words": words,
-        "good": bool(judged.success),
-        "state": STATES[2] if not judged.success else STATES[0] if run.e3 == "up" else STATES[1],
+        "good": good,
+        "state": STATES[2] if not good else STATES[0] if run.e3 == "up" else STATES[1],
         "settling": judged.settling if judged.success else None,
         "excursion": judged.excursion if np.isfinite(judged.excursion) else None,
         "reason": run.outcome.reason,
@@ -69,4 +72,4 @@ def fall(run: Run) -> str:
 
 
 def _round(metres: float) -> str:
-    return f"{round(metres, 2):.3g}"
+    return f"{float(f'{round(metres, 2):.3g}'):g}"

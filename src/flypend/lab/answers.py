@@ -17,7 +17,7 @@ from flypend.lab.export import python, toml
 from flypend.lab.flying import MOST_STEPS, fly, region
 from flypend.lab.own import NONE, OwnLaws
 from flypend.lab.setting import Setting, setting_of
-from flypend.lab.tuning import Tell, tune_loop
+from flypend.lab.tuning import Tell
 from flypend.laws import BoundLaw
 from flypend.pages import replay
 from flypend.pages.offers import plain, sliders_of
@@ -55,7 +55,7 @@ def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
     begun = time.perf_counter()
     setting = setting_of(message.get("setting"), own)
     run = fly(setting, tell)
-    packed = replay.pack(run, verdict(run, tune_loop(setting).criterion))
+    packed = replay.pack(run, verdict(run))
     yield {
         "kind": "flight",
         "run": packed,

@@ -8,12 +8,14 @@ its flight computer anew.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from flypend.building import built
+from flypend.compile.numeric import as_numpy
 from flypend.flight.ensemble import fly_many
 from flypend.flight.kernels import IdealKernel
 from flypend.flight.kernels.launch import Solution, sampled_samples
@@ -26,12 +28,12 @@ from flypend.flight.simulate import record_run
 from flypend.flight.trajectory import Trajectory
 from flypend.lab.setting import Poke, Setting
 from flypend.lab.tuning import Stepped, Tell, Tuned, in_pieces, tune_loop, values
-from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion
+from flypend.model import State, Vehicle
 from flypend.model.state import SHAPES, SIZE, E3Direction, convert_packed, split
 from flypend.pages.offers import directions
 from flypend.plants import Sampled
+from flypend.plants.equations import struck
 
-STILL = Wrench(0.0, np.zeros(3))
 MOST_STEPS = 20_000  # of the ideal plant, over all parts of a flight; usual gains need less than 1,000 for 30 s
 SPENT = f"the laboratory stops a flight after {MOST_STEPS:,} integration steps; flypend run does not"
 # Of a map: its flights, how many of them the first and the largest chunk have.
@@ -116,8 +118,8 @@ def _fly_through_pokes(setting: Setting, machine: Tuned, pieces: PiecesKernel, g
     last = ticks[-1] + number_of_ticks(flight.duration, plant)
     blows = [np.zeros(6), *(_impulses(poke, plant.true_vehicle(flight.vehicle)) for poke in setting.pokes)]
     rows, blow = [], np.zeros(6)
-    for tick, struck in zip((*ticks, last), blows, strict=True):
-        blow = blow + struck  # of pokes within one tick, all at once
+    for tick, impulses in zip((*ticks, last), blows, strict=True):
+        blow = blow + impulses  # of pokes within one tick, all at once
         if flown.flying and tick > flown.ticks:
             rows.append(flown.advance(tick - flown.ticks, blow))
             blow = np.zeros(6)
@@ -146,16 +148,15 @@ def _tick(poke: Poke, period: float) -> int:
 
 
 def poke_state(state: State, vehicle: Vehicle, e3: E3Direction, poke: Poke) -> State:
-    """Return `state` (frame `e3`) after the impulse of `poke`: x_dot and y_dot jump, all else stays.
+    """Return `state` (frame `e3`) after the impulse of `poke`: x_dot and y_dot jump, all else stays."""
+    after = _strike(vehicle)(state.in_frame(e3).packed(), _impulses(poke, vehicle))
+    return State.trusted(after).in_frame(e3)
 
-    The accelerations are affine in the external force, so the jump is the acceleration with the force, minus that
-    without it, times one second.
-    """
-    mass, up = vehicle.bob_mass if poke.on == "bob" else vehicle.mass, state.in_frame(e3)
-    blow = Disturbance(**{f"force_on_{poke.on}": mass * poke.velocity})
-    hit, free = disturbed_motion(up, STILL, vehicle, "up", blow), disturbed_motion(up, STILL, vehicle, "up")
-    jumps = {"x_dot": up.x_dot + hit.x_ddot - free.x_ddot, "y_dot": up.y_dot + hit.y_ddot - free.y_ddot}
-    return replace(up, **jumps).in_frame(e3)
+
+@built(maxsize=16)
+def _strike(vehicle: Vehicle) -> Callable[..., Any]:
+    """Return (state (24,), impulses (6,)) → state, with the pivot at the centre of mass, as the ideal plant has it."""
+    return as_numpy(struck(vehicle.replace(pivot_offset=(0.0, 0.0, 0.0))))
 
 
 def _trajectory(setting: Setting, machine: Tuned | Stepped, gains: Any, parts: list[Samples]) -> Trajectory:

@@ -12,7 +12,7 @@ from flypend.errors import InputError
 from flypend.laws import Controller, Gain, Law, law_names
 from flypend.laws.closed_loop import symbolic_loop
 from flypend.model import vehicle
-from flypend.settings.laws import absolute, law_named
+from flypend.settings.laws import absolute, law_named, split_place
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +24,7 @@ class OwnLaw:
     law : Law or Controller
         The law.
     where : str
-        `file.py:function` with an absolute path, or `module:function`.
+        `file.py:function` or `policy.onnx` with an absolute path, or `module:function`.
     stamp : str
         Digest of its file, so that code compiled from an older version is never flown.
     """
@@ -92,8 +92,8 @@ def _tunable(law: Law) -> Law:
 
 
 def _stamp(where: str) -> str:
-    file = Path(where.rpartition(":")[0])
-    return hashlib.sha256(file.read_bytes()).hexdigest() if file.suffix == ".py" and file.is_file() else ""
+    file = Path(split_place(where)[0])
+    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
 
 
 NONE = OwnLaws()

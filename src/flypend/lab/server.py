@@ -58,7 +58,7 @@ class Laboratory:
             return False
         asked, own = _address_in(name), _address_in(self.host)
         here = own is not None and own.is_loopback
-        return name == self.host or (asked is not None and (asked.is_loopback or not here))
+        return name == self.host.lower() or (asked is not None and (asked.is_loopback or not here))
 
     def application(self) -> Application:
         """Build the Tornado application: page, script and socket."""
@@ -225,8 +225,9 @@ def _listen(host: str, port: int) -> socket.socket:
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
         return socket.create_server((host, port), family=family)
-    except OSError as error:
-        raise InputError("--host and --port", "an address to listen on", f"{host}:{port}: {error.strerror}") from None
+    except (OSError, UnicodeError) as error:  # the latter of a name that no host can have
+        why = getattr(error, "strerror", error)
+        raise InputError("--host and --port", "an address to listen on", f"{host}:{port}: {why}") from None
 
 
 async def _serve(

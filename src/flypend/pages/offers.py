@@ -149,14 +149,14 @@ def defect_sliders(plant: Sampled) -> list[dict[str, Any]]:
 
 
 def slider(path: str, group: str, words: str, unit: str, value: float, reach: Reach, put: Any = None) -> dict[str, Any]:
-    """One slider; its range is widened to include `value`.
+    """One slider; its range is widened to include `value`, and logarithmic only if that is positive.
 
     `put` is what the page writes at `path`, where {"#": factor} stands for factor times the value; None for the value.
     """
     return {
         "path": path, "group": group, "words": words, "unit": unit, "value": float(value),
-        "low": float(min(reach.low, value)), "high": float(max(reach.high, value)), "log": reach.log, "put": put,
-        "allowed": None,
+        "low": float(min(reach.low, value)), "high": float(max(reach.high, value)),
+        "log": bool(reach.log and value > 0), "put": put, "allowed": None,
     }  # fmt: skip
 
 

@@ -65,7 +65,7 @@ def movie(
     if gif and fps > 50:
         raise errors.InputError("fps", "at most 50 for a .gif", f"{fps:g}")
     shape = errors.array("size", size, (2,))
-    if shape.shape != (2,) or np.any(shape < 160) or np.any(shape > LARGEST) or np.any(shape % 2):
+    if np.any(shape < 160) or np.any(shape > LARGEST) or np.any(shape % 2):
         raise errors.InputError("size", f"two even numbers of pixels, 160 to {LARGEST}", size)
     width, height = (int(side) for side in shape)
     hold = round(HOLD * fps)

@@ -170,7 +170,7 @@ class Plan:
         return Trajectory(
             t=self.t, **split(self.packed), thrust=wrench[:, 0], moment=wrench[:, 1:], rotor_forces=self.rotor_forces,
             drift=np.zeros((0, 3)), outcome=Outcome("completed", self.duration), e3="up", vehicle=self.vehicle,
-            law="plan", gains={}, x_ref=self.x_ref,
+            law="plan", gains={}, x_ref=self.x_ref, planned=(self.summary, bool(self)),
         )  # fmt: skip
 
     def to_html(self, path: str | Path | None = None) -> str:

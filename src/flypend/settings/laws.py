@@ -164,7 +164,7 @@ def _move_paths(value: Any, move: Callable[[str], str]) -> Any:
     """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):
         return {**value, **{name: _move_paths(value[name], move) for name in PLACES if name in value}}
-    file, attribute = _split(value) if isinstance(value, str) else ("", "")
+    file, attribute = split_place(value) if isinstance(value, str) else ("", "")
     return f"{move(file)}{attribute}" if file else value
 
 
@@ -173,7 +173,7 @@ def _is_place(name: str) -> bool:
     return ":" in name or name.endswith((ONNX, LEARNED))
 
 
-def _split(name: str) -> tuple[str, str]:
+def split_place(name: str) -> tuple[str, str]:
     """Return the file in `name`, "" if there is none, and what follows it."""
     if name.endswith((ONNX, LEARNED)):
         return name, ""
@@ -292,7 +292,7 @@ def _file(name: str, folder: Path, key: str) -> ModuleType:
         except (Exception, SystemExit) as error:
             raise _load_error(error, str(path)) from error
         finally:
-            del sys.modules[title]
+            sys.modules.pop(title, None)  # a law that it loads may have the same stem
     return module
 
 

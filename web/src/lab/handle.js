@@ -83,11 +83,8 @@ export class Handle {
     if (this.held === held) return;
     if (held) this.invite.hidden = true; // they know
     this.held = held;
-    if (this.going) {
-      if (!held) this.pulled(null);
-      return;
-    }
-    this.viewer.stage.hold("rod", held);
+    if (this.going && !held) this.pulled(null);
+    this.viewer.stage.hold("rod", held && !this.going);
     this.viewer.wake();
   }
 

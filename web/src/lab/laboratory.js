@@ -181,9 +181,10 @@ export class Laboratory {
 
   /** Keep the flight that is shown as a ghost, or let it go. */
   pin() {
+    if (!this.record) return;
     this.pinned = this.pinned.length ? [] : [{ ...this.record, title: "pinned" }];
     this.panel.pins(this.pinned.length > 0);
-    if (!this.running.on && this.record) this.#load();
+    if (!this.running.on) this.#load();
   }
 
   rod(y) {
@@ -342,10 +343,10 @@ export class Laboratory {
   }
 
   #picture(reply) {
-    this.main.classList.remove("stale");
     const first = !this.flew;
     if (first) performance.mark("flypend flown"); // and "flypend drawn": marks that browsers keep of a page
-    else this.#notice("");
+    if (!first || this.main.classList.contains("stale")) this.#notice(""); // what is said of the address stays at first
+    this.main.classList.remove("stale");
     this.flew = true;
     // The picture is not turned round by a gain: the camera keeps the direction of the first flight of a preset.
     this.steady ??= reply.run.direction;
@@ -369,10 +370,14 @@ export class Laboratory {
     return this.running.on;
   }
 
+  /** Whether the setting is that of the opening. */
+  get usual() {
+    return JSON.stringify(this.setting.value) === JSON.stringify(this.offer.first);
+  }
+
   /** The flights beside that of the setting: those that are pinned unless it is they. */
   get ghosts() {
-    const same = JSON.stringify(this.setting.value) === JSON.stringify(this.offer.first);
-    return this.offer.vehicles || !same || this.pinned[0]?.title === "pinned" ? this.pinned : [];
+    return this.offer.vehicles || !this.usual || this.pinned[0]?.title === "pinned" ? this.pinned : [];
   }
 
   #load() {
@@ -420,11 +425,11 @@ export class Laboratory {
     this.verdict = { words: message, good: false, state: "failed" };
     judge(this.words, { words: "not flown", state: "failed" });
     this.viewer.clock.pause();
-    if (!this.flew) this.#begin(message);
+    if (!this.flew && !this.usual) this.#begin(message);
     else {
       this.main.classList.add("stale");
       const undo = this.setting.past.length ? ["Undo", () => this.setting.undo()] : [];
-      this.#notice(`Not flown. ${message}. The picture is of the last flight.`, undo);
+      this.#notice(`Not flown. ${message}.${this.flew ? " The picture is of the last flight." : ""}`, undo);
     }
   }
 

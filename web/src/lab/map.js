@@ -2,6 +2,7 @@
 
 import { clear, lettering } from "../drawing.js";
 import { rise } from "../flight.js";
+import { degrees } from "../numbers.js";
 import { axes, direction, place, rings, way } from "../sphere.js";
 
 const STOPS = ["#00224e", "#3b496c", "#7d7c78", "#bcae6c", "#fee838"]; // cividis, which every kind of vision reads
@@ -141,7 +142,7 @@ export class Map {
     if (!y || !this.points.length) return;
     const near = (point) => point.y.reduce((sum, value, k) => sum + value * y[k], 0);
     const point = this.points.reduce((best, other) => (near(other) > near(best) ? other : best));
-    const tilt = (Math.acos(Math.min(Math.max(y[2], -1), 1)) * 180 / Math.PI).toFixed(0);
+    const tilt = degrees(y[2]).toFixed(0);
     this.here.textContent = `${tilt}° from upright: ${point.settling === null ? `does not settle (${point.cause})` : `settles after ${point.settling.toFixed(1)} s`}`;
   }
 }

@@ -8,6 +8,8 @@ const IN_SIGHT = 200; // CSS pixels of the panel
 const NAMES = { hehn2011: "hehn2011, 0.5 kg", nayak2018: "nayak2018, 0.4 kg" };
 const WAYS = [["right", "→ right"], ["left", "← left"], ["away", "↗ away"], ["towards", "↙ towards"], ["up", "↑ up"], ["down", "↓ down"]];
 
+const OWN = ["gains", "plant", "place", "defects"]; // groups of sliders that have a section of their own
+
 /** What is in sight. */
 const BAR = `<div class="five"><button type="button" class="go live" aria-pressed="false" title="Let the flight go on, and take the bob in hand (l)">Fly live</button>
   <button type="button" class="again" title="Begin again (r)">Start again</button>
@@ -54,7 +56,7 @@ export class Panel {
     this.bar = document.createElement("section");
     Object.assign(this.bar, { className: "bar", innerHTML: BAR, ariaLabel: "Controls" });
     parent.querySelector("header").after(this.bar, this.root); // before the picture, for those who go by keys
-    this.groups = Object.fromEntries(["gains", "plant", "flight", "place", "defects"].map((name) =>
+    this.groups = Object.fromEntries(["flight", ...OWN].map((name) =>
       [name, new Group(this.#find(`.${name}`), (facts, value) => lab.slide(facts, value))]));
     this.selects = [];
     if (chosen) this.#choices();
@@ -96,10 +98,7 @@ export class Panel {
     this.go.disabled = true; // until there is machine code
     this.#find(".undo").addEventListener("click", () => this.lab.setting.undo());
     this.#find(".redo").addEventListener("click", () => this.lab.setting.redo());
-    this.#find(".has-gains .reset").addEventListener("click", () => this.lab.reset("gains"));
-    this.#find(".has-plant .reset").addEventListener("click", () => this.lab.reset("plant"));
-    this.#find(".has-defects .reset").addEventListener("click", () => this.lab.reset("defects"));
-    this.#find(".has-place .reset").addEventListener("click", () => this.lab.reset("place"));
+    for (const name of OWN) this.#find(`.has-${name} .reset`).addEventListener("click", () => this.lab.reset(name));
   }
 
   #starts() {
@@ -233,10 +232,7 @@ export class Panel {
 
   sliders(sliders) {
     for (const [name, group] of Object.entries(this.groups)) group.show(sliders.filter((facts) => facts.group === name));
-    this.#find(".has-plant").hidden = this.groups.plant.sliders.length === 0;
-    this.#find(".has-gains").hidden = this.groups.gains.sliders.length === 0;
-    this.#find(".has-place").hidden = this.groups.place.sliders.length === 0;
-    this.#find(".has-defects").hidden = this.groups.defects.sliders.length === 0;
+    for (const name of OWN) this.#find(`.has-${name}`).hidden = this.groups[name].sliders.length === 0;
   }
 
   /** Say at which sizes of the sensors' defects the flight `fails` (what it does), if there are any; "" takes it back. */

@@ -114,6 +114,7 @@ export class Local {
     if (reply.kind === "error") {
       this.busy = false;
       this.told({ ...reply, field: "" });
+      this.#next();
       return;
     }
     if (reply.kind === "several") {

@@ -2,7 +2,7 @@
 
 import { kind } from "../lab/setting.js";
 import { judge } from "../layout.js";
-import { clamp } from "../numbers.js";
+import { degrees } from "../numbers.js";
 import { Growing } from "./growing.js";
 import { blow, turned } from "./request.js";
 import { judged } from "./verdict.js";
@@ -78,8 +78,7 @@ export class Running {
   /** Pull the bob towards a place (e3 up, m), or no more (null). */
   pull(place) {
     const { facts } = this.lab.link, { stiffness, damping, most } = PULL, mass = facts.masses.bob;
-    const weight = 9.81 * (mass + facts.masses.vehicle);
-    this.pulling = this.on && place ? { place, stiffness: stiffness * mass, damping: damping * mass, most: most * weight } : null;
+    this.pulling = this.on && place ? { place, stiffness: stiffness * mass, damping: damping * mass, most: most * this.lab.record.vehicle.weight } : null;
   }
 
   /** Ask for the next piece, unless one is under way. */
@@ -115,7 +114,7 @@ export class Running {
 
   #say(verdict) {
     const { y } = this.flight.at(this.flight.end), sign = this.flight.e3 === "up" ? 1 : -1;
-    const lean = (Math.acos(clamp(sign * y[2], -1, 1)) * 180) / Math.PI, state = this.flight.state(this.flight.end);
+    const lean = degrees(sign * y[2]), state = this.flight.state(this.flight.end);
     const words = this.over ? verdict.words : state === "done" ? "live: upright" : `live: recovering, rod ${lean.toFixed(0)}° from upright`;
     this.#fall(state, sign * y[2] < 0);
     this.lab.verdict = { words, good: state === "done", state };

@@ -1,4 +1,4 @@
-// What sampled flights leave open: sizes, times and programs; `flypend.compile.sampled_problem` describes them.
+// What sampled flights leave open: sizes, times and programs; `flypend.compile.problem` describes them.
 #pragma once
 
 #include "lanes.hpp"

@@ -1,4 +1,4 @@
-// What stepped worlds leave open: sizes, places and programs; `flypend.compile.worlds_problem` describes them.
+// What stepped worlds leave open: sizes, places and programs; `flypend.compile.problem` describes them.
 #pragma once
 
 #include "lanes.hpp"

@@ -1,5 +1,6 @@
 """A rehearsed log gives back the numbers that flew, from a guess that is wrong; what a log cannot tell is said."""
 
+from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
@@ -133,6 +134,24 @@ def test_the_report_says_what_was_found_and_how_well(found):
     for name in ("rod_length", "inertia[2]", "drag_ratio / I_3", "delay", "gyro", "passes of the filter"):
         assert name in said
     assert "NOT converged" not in said or found._fit.passes == 12
+
+
+def test_numbers_of_the_file_are_within_its_bands_and_reported(found):
+    """Also where a step of the search broke the triangle inequality, and where the band of the drag begins at 0."""
+    at, theta = places(found._fit.search.table), found._fit.theta.copy()
+    theta[at["inertia"]] += [0.0, 0.0, 1.0]
+    theta[at["rotor_drag"]] = 1e-3
+    broken = conclude(replace(found._fit, theta=theta), GUESS.replace(air={"rotor_drag": 0.0}), 0.005)
+    for one in (found, broken):
+        v = one.vehicle
+        said = {line.split()[0]: float(line.split()[1]) for line in one.report().split("\n\n")[0].splitlines()[:-1]}
+        for name in ("rod_length", "drag_ratio", "rotor_lag", "thrust_scale"):
+            assert inside(one, name, getattr(v, name))
+            assert said[name] == pytest.approx(getattr(v, name), rel=1e-4)
+        assert inside(one, "inertia", np.diag(v.inertia))
+        assert said["inertia[2]"] == pytest.approx(v.inertia[2, 2], rel=1e-4)
+    assert v.inertia[2, 2] == pytest.approx(v.inertia[0, 0] + v.inertia[1, 1])
+    assert said["rotor_drag"] == pytest.approx(v.air.rotor_drag, rel=1e-4)
 
 
 @pytest.mark.parametrize("rod", [0.1, 0.6])

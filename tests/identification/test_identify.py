@@ -8,6 +8,7 @@ import pytest
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.identification.fit import search_from
 from flypend.identification.manoeuvre import rehearse, write_log
 from flypend.identification.model import places
 from flypend.identification.result import T_975, _machine, conclude
@@ -181,6 +182,12 @@ def test_a_machine_with_slow_rotors_stays_in_its_place():
     assert np.abs(states.x).max() < 2.0
     assert states.R[:, 2, 2].min() > 0.8
     assert states.y[:, 2].max() < -0.4
+
+
+def test_a_lag_that_may_be_none_is_known_before():
+    search = search_from(GUESS.replace(bands={"rotor_lag": (0.0, 0.1)}), pwm=False, accelerometer=True)
+    spread = search.spread[places(search.table)["lag"]]
+    assert 1 < spread < 10  # of the logarithm
 
 
 def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):

@@ -45,6 +45,7 @@ PLAIN = {
 }  # fmt: skip
 FIELDS = {"scale": "thrust_scale", "lag": "rotor_lag", "shares": "strength"}  # of a vehicle's bands, by name here
 NORMAL_975 = 1.96  # standard deviations from the middle of a band of 95 % to its end
+NO_LAG = 1e-3  # of a band's upper end, in place of a lower one of 0, which a lag may have
 LAG, DELAY, SAG, PWM_CURVE = 0.04, 0.01, 0.03, 0.7  # where a search begins if the guess says nothing
 LEAST, MOST = {"delay": 0.0, "sag": 0.0, "curve": 0.0}, {"delay": 0.2, "sag": 0.25, "curve": 1.0}
 DRAG_TIME, WIND = 5.0, 0.03  # s in which drag stops a machine; steady wind over weight
@@ -102,7 +103,8 @@ def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
         if (field := FIELDS.get(name, name)) in (vehicle.bands or {}):
             low, high = (np.array(end) for end in vehicle.bands[field])
             logarithmic = name in RATIOS or name in ("scale", "shares")
-            spreads[name] = (np.log(high / low) if logarithmic else high - low) / (2 * NORMAL_975)
+            least = np.maximum(low, NO_LAG * high)
+            spreads[name] = (np.log(high / least) if logarithmic else high - low) / (2 * NORMAL_975)
             if name in ("spin_up", "sag", "delay", "latency"):  # no fields of a vehicle: the band's middle
                 given[name] = (low + high) / 2
             if name == "shares":

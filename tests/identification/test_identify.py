@@ -9,7 +9,7 @@ import pytest
 import flypend as fp
 from flypend.errors import InputError
 from flypend.identification.fit import search_from
-from flypend.identification.manoeuvre import rehearse, write_log
+from flypend.identification.manoeuvre import rehearsal_of, rehearse, write_log
 from flypend.identification.model import places
 from flypend.identification.result import T_975, _machine, conclude
 from tests.identification.test_rosbag import TOPICS, flight, write_bag
@@ -153,6 +153,23 @@ def test_numbers_of_the_file_are_within_its_bands_and_reported(found):
         assert said["inertia[2]"] == pytest.approx(v.inertia[2, 2], rel=1e-4)
     assert v.inertia[2, 2] == pytest.approx(v.inertia[0, 0] + v.inertia[1, 1])
     assert said["rotor_drag"] == pytest.approx(v.air.rotor_drag, rel=1e-4)
+
+
+def test_a_rehearsal_flies_what_the_file_says_and_doubts_what_it_has_wrong():
+    mine = fp.Vehicle.estimate(
+        mass=0.62, arm=0.17, propeller="8x4.5", rod_length=0.9, rod_mass=0.03, bob_mass=0.04
+    ).replace(thrust_scale=0.7)  # fmt: skip
+    mine = mine.replace(bands={**mine.bands, "thrust_scale": (0.6, 0.8)})
+    guess, flown = rehearsal_of(mine, duration=10.5)
+    assert guess.rod_length != mine.rod_length
+    assert guess.m / guess.bob_mass == pytest.approx(mine.m / mine.bob_mass)  # a rod of the same shape
+    for name in set(guess.bands) & set(mine.to_dict()) - {"rotor_limits"}:
+        low, high = guess.bands[name]
+        assert np.all((low <= getattr(guess, name)) & (getattr(guess, name) <= high)), name
+    thrust = sum(flown.columns[f"u{i}"] for i in range(1, 5)).mean()
+    assert thrust == pytest.approx(mine.weight / (0.7 * SCALE), rel=0.15)  # sag, strengths, tilt
+    calm = rehearsal_of(mine.replace(air=None), duration=10.5)[1]
+    assert np.abs(flown.states - calm.states)[:, :3].max() > 0.01
 
 
 @pytest.mark.parametrize("rod", [0.1, 0.6])

@@ -8,7 +8,8 @@ import pytest
 
 import flypend as fp
 from flypend.errors import InputError
-from flypend.identification.fit import search_from
+from flypend.identification.fit import drop_wild, fit, search_from
+from flypend.identification.log import read_log
 from flypend.identification.manoeuvre import rehearsal_of, rehearse, write_log
 from flypend.identification.model import places
 from flypend.identification.result import T_975, _machine, conclude
@@ -219,6 +220,40 @@ def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):
     found = fp.identify(tmp_path / "hover.csv", GUESS)
     assert {"drag_ratio", "sag"} <= set(found.untold)
     assert "yaw doublets" in found.report()
+
+
+def test_single_wild_readings_are_left_out_and_no_others(log):
+    flown = read_log(log)
+    streams = ("position", "rotation", "gyro", "force", "rod")
+    for name in streams:
+        assert np.array_equal(getattr(drop_wild(flown), name), getattr(flown, name))
+    wild = {name: getattr(flown, name).copy() for name in streams}
+    wild["rotation"][101] = np.diag([-1, -1, 1]) @ wild["rotation"][101]
+    wild["position"][5::100, 0] += 1.0  # 1 %
+    wild["gyro"][7, 1], wild["force"][0, 2] = 1e6, 1e300
+    kept = drop_wild(replace(flown, **wild))
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.position[:, 0])), np.arange(5, len(flown.t), 100))
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.gyro[:, 0])), [7])
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.force[:, 0])), [0])
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.rotation[:, 0, 0])), [101])
+
+
+def test_what_cannot_be_followed_is_said_by_row_and_channel(log):
+    flown = read_log(log)
+    gyro = flown.gyro.copy()
+    gyro[2000:2012] = 1e6
+    with pytest.raises(InputError, match=r"flight\.csv, near row 200[1-5]: expected readings of gyro"):
+        fit(replace(flown, gyro=gyro), GUESS, np.zeros(3), pwm=False)
+
+
+@pytest.mark.parametrize("where", ["begins", "ends"])
+def test_a_log_from_the_ground_is_refused_as_such(log, where):
+    flown = read_log(log)
+    rest = slice(0, 200) if where == "begins" else slice(-200, None)
+    position, command = flown.position.copy(), flown.command.copy()
+    position[rest], command[rest] = position[rest][0], 0.1
+    with pytest.raises(InputError, match=f"one that {where} at rest"):
+        fit(replace(flown, position=position, command=command), GUESS, np.zeros(3), pwm=False)
 
 
 @pytest.mark.parametrize("length", [0.7586374133985795, 0.35709547801928937, 0.6])

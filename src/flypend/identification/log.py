@@ -66,6 +66,8 @@ class Log:
         What each rotor was asked for: N, or a fraction from 0 to 1.
     fractions : bool
         Whether the format says that commands are fractions.
+    name : str
+        Of the file, for messages.
     """
 
     t: Numbers
@@ -76,6 +78,7 @@ class Log:
     rod: Numbers
     command: Numbers
     fractions: bool = False
+    name: str = "log"
 
     @property
     def duration(self) -> float:
@@ -230,7 +233,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
     known = np.isfinite(w[:, 0])
     rotation = np.full((len(t), 3, 3), np.nan)
     rotation[known] = rotation_from_quat_xyzw(np.concatenate([xyz, w], axis=1)[known])
-    return Log(t, groups["position"], rotation, groups["gyro"], groups["force"], groups["rod"], command, fractions)
+    gyro, force, rod = (groups[name] for name in ("gyro", "force", "rod"))
+    return Log(t, groups["position"], rotation, gyro, force, rod, command, fractions, field)
 
 
 def _hold_last(values: Any, field: str) -> Any:

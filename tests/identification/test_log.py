@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from flypend.errors import InputError
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.identification.log import CRAZYFLIE, NEEDED, _check, _from_crazyflie, parse_log
+from flypend.identification.log import CRAZYFLIE, NEEDED, _check, _from_crazyflie, parse_log, read_log
 
 NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
 
@@ -40,6 +40,11 @@ def test_every_cell_is_read_where_it_stands():
     assert log.rod[7] == pytest.approx([cell["rx"], cell["ry"], cell["rz"]], rel=1e-12)  # made of length 1 again
     quaternion = np.array([cell["qx"], cell["qy"], cell["qz"], cell["qw"]])
     assert log.rotation[7] == pytest.approx(rotation_from_quat_xyzw(quaternion), abs=1e-12)
+
+
+def test_a_byte_order_mark_before_a_table_is_no_part_of_it(tmp_path):
+    (tmp_path / "excel.csv").write_text(text(table()), encoding="utf-8-sig")
+    assert np.array_equal(read_log(tmp_path / "excel.csv").t, parse_log(text(table())).t)
 
 
 def test_a_crazyflie_s_log_is_the_same_in_its_names_and_units():

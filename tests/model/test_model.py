@@ -490,6 +490,11 @@ def test_a_vehicle_from_toml(tmp_path):
     assert again.to_dict() == vehicle.to_dict()
 
 
+def test_a_byte_order_mark_before_a_vehicle_is_no_part_of_it(tmp_path):
+    (tmp_path / "mine.toml").write_text('base = "hehn2011"\nmass = 0.6\n', encoding="utf-8-sig")
+    assert fp.vehicle(tmp_path / "mine.toml").mass == 0.6
+
+
 def test_a_toml_that_cannot_be_taken_is_refused_in_one_line(tmp_path):
     path = tmp_path / "bad.toml"
     with refused(str(path), expected="a readable TOML file", got="No such file"):

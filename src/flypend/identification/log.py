@@ -106,7 +106,7 @@ def read_log(path: str | Path) -> Log:
                 return _check(columns, rotors, field, fractions=fractions)
         if content.startswith(USD):
             return _from_crazyflie(parse_usd(content, field), field)
-        text = content.decode("utf-8")
+        text = content.decode("utf-8-sig")
     except InputError:
         raise
     except OSError as error:

@@ -112,6 +112,10 @@ WRONG = {
     "no time": (lambda r: changed(r, 90, "t", ""), "row 90, column t"),
     "time stands still": (lambda r: changed(r, 90, "t", r[88][0]), "row 90, column t.*later"),
     "a gap": (lambda r: [*r[:300], *r[400:]], "row 301, column t.*gaps"),
+    "a gap after 1970": (
+        lambda r: [r[0], *([repr(1.7e9 + float(w[0])), *w[1:]] for w in [*r[1:300], *r[400:]])],
+        "row 301, column t.*1700000003.99 after 1700000002.98",
+    ),
     "too short": (lambda r: r[:900], "10 s of flight"),
     "milliseconds": (lambda r: [r[0], *([repr(1e3 * float(w[0])), *w[1:]] for w in r[1:])], "column t.*ms"),
     "a quaternion of length 2": (lambda r: changed(r, 33, "qw", "2"), "row 33, column qw.*length"),

@@ -253,7 +253,7 @@ def _row(wrong: Any) -> int:
 
 def _row_of(t: Any, wrong: Any) -> str:
     i = int(np.argmax(wrong))
-    return f"{t[i + 1]:.6g} after {t[i]:.6g}"
+    return f"{t[i + 1]:.15g} after {t[i]:.15g}"
 
 
 # The grid -------------------------------------------------------------------------------------------------------------

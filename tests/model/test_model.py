@@ -512,6 +512,20 @@ def test_a_toml_that_cannot_be_taken_is_refused_in_one_line(tmp_path):
         fp.Vehicle.from_toml(path)
 
 
+@pytest.mark.parametrize(
+    ("field", "changes"),
+    [
+        ("mass", {"mass": 10**400}),
+        ("inertia", {"inertia": [10**400] * 3}),
+        ("bands.mass", {"bands": {"mass": [1, 10**400]}}),
+    ],
+)
+def test_a_number_beyond_every_float_is_refused(field, changes):
+    with pytest.raises(fp.InputError, match=rf"^{field}: expected .*, got \[?1") as said:
+        fp.vehicle("hehn2011").replace(**changes)
+    assert len(str(said.value)) < 200
+
+
 def test_the_vehicles_of_the_package_are_those_announced():
     assert {"hehn2011", "nayak2018"} <= set(vehicle_names())
     for name in vehicle_names():

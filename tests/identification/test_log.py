@@ -119,6 +119,7 @@ WRONG = {
     "too short": (lambda r: r[:900], "10 s of flight"),
     "milliseconds": (lambda r: [r[0], *([repr(1e3 * float(w[0])), *w[1:]] for w in r[1:])], "column t.*ms"),
     "a quaternion of length 2": (lambda r: changed(r, 33, "qw", "2"), "row 33, column qw.*length"),
+    "a quaternion beyond measure": (lambda r: changed(r, 33, "qw", "1e200"), "row 33, column qw.*length inf"),
     "a rod in metres": (lambda r: changed(r, 33, "rz", "3"), "row 33, column rx.*length"),
     "a negative command": (lambda r: changed(r, 12, "u3", "-0.1"), "row 12, columns u1.*-0.1"),
     "no gyro at all": (lambda r: [r[0], *([*w[:8], "", "", "", *w[11:]] for w in r[1:])], "gyro"),

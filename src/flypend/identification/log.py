@@ -220,7 +220,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
         if np.isfinite(groups[name]).all(axis=1).sum() < SLOWEST:
             raise InputError(field, f"rows with all of {name} measured", "next to none")
     for name, first in (("q", "qw"), ("rod", "rx")):
-        length = np.linalg.norm(groups[name], axis=1)
+        with np.errstate(over="ignore"):  # of a damaged bag
+            length = np.linalg.norm(groups[name], axis=1)
         if np.any(wrong := np.abs(length - 1) > NEAR_UNIT):
             told = f"length {length[np.argmax(wrong)]:.3g}"
             raise InputError(f"{field}, row {_row(wrong)}, column {first}", "a vector of length 1", told)

@@ -38,8 +38,8 @@ def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool 
     wanted = "(" + ", ".join("n" if n is None else str(n) for n in shape) + ")"
     try:
         result = np.array(value, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(field, f"numbers of shape {wanted}", repr(value)) from None
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(field, f"numbers of shape {wanted}", repr(value)[:80]) from None
     trailing = result.shape[result.ndim - len(shape) :]
     fits = result.ndim == len(shape) or (batch and result.ndim > len(shape))
     if not fits or any(n not in (None, m) for n, m in zip(shape, trailing, strict=True)):
@@ -65,8 +65,8 @@ def number(
         raise InputError(field, expected, repr(value))
     try:
         result = float(value)
-    except (TypeError, ValueError):
-        raise InputError(field, expected, repr(value)) from None
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(field, expected, repr(value)[:80]) from None
     inside = (above is None or result > above) and (at_least is None or result >= at_least)
     if not (np.isfinite(result) and inside):
         raise InputError(field, expected, f"{result:g}")

@@ -1,5 +1,6 @@
 """A rehearsed log gives back the numbers that flew, from a guess that is wrong; what a log cannot tell is said."""
 
+from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
@@ -7,7 +8,9 @@ import pytest
 
 import flypend as fp
 from flypend.errors import InputError
-from flypend.identification.manoeuvre import rehearse, write_log
+from flypend.identification.fit import drop_wild, fit, search_from
+from flypend.identification.log import read_log
+from flypend.identification.manoeuvre import rehearsal_of, rehearse, write_log
 from flypend.identification.model import places
 from flypend.identification.result import T_975, _machine, conclude
 from tests.identification.test_rosbag import TOPICS, flight, write_bag
@@ -135,6 +138,41 @@ def test_the_report_says_what_was_found_and_how_well(found):
     assert "NOT converged" not in said or found._fit.passes == 12
 
 
+def test_numbers_of_the_file_are_within_its_bands_and_reported(found):
+    """Also where a step of the search broke the triangle inequality, and where the band of the drag begins at 0."""
+    at, theta = places(found._fit.search.table), found._fit.theta.copy()
+    theta[at["inertia"]] += [0.0, 0.0, 1.0]
+    theta[at["rotor_drag"]] = 1e-3
+    broken = conclude(replace(found._fit, theta=theta), GUESS.replace(air={"rotor_drag": 0.0}), 0.005)
+    for one in (found, broken):
+        v = one.vehicle
+        said = {line.split()[0]: float(line.split()[1]) for line in one.report().split("\n\n")[0].splitlines()[:-1]}
+        for name in ("rod_length", "drag_ratio", "rotor_lag", "thrust_scale"):
+            assert inside(one, name, getattr(v, name))
+            assert said[name] == pytest.approx(getattr(v, name), rel=1e-4)
+        assert inside(one, "inertia", np.diag(v.inertia))
+        assert said["inertia[2]"] == pytest.approx(v.inertia[2, 2], rel=1e-4)
+    assert v.inertia[2, 2] == pytest.approx(v.inertia[0, 0] + v.inertia[1, 1])
+    assert said["rotor_drag"] == pytest.approx(v.air.rotor_drag, rel=1e-4)
+
+
+def test_a_rehearsal_flies_what_the_file_says_and_doubts_what_it_has_wrong():
+    mine = fp.Vehicle.estimate(
+        mass=0.62, arm=0.17, propeller="8x4.5", rod_length=0.9, rod_mass=0.03, bob_mass=0.04
+    ).replace(thrust_scale=0.7)  # fmt: skip
+    mine = mine.replace(bands={**mine.bands, "thrust_scale": (0.6, 0.8)})
+    guess, flown = rehearsal_of(mine, duration=10.5)
+    assert guess.rod_length != mine.rod_length
+    assert guess.m / guess.bob_mass == pytest.approx(mine.m / mine.bob_mass)  # a rod of the same shape
+    for name in set(guess.bands) & set(mine.to_dict()) - {"rotor_limits"}:
+        low, high = guess.bands[name]
+        assert np.all((low <= getattr(guess, name)) & (getattr(guess, name) <= high)), name
+    thrust = sum(flown.columns[f"u{i}"] for i in range(1, 5)).mean()
+    assert thrust == pytest.approx(mine.weight / (0.7 * SCALE), rel=0.15)  # sag, strengths, tilt
+    calm = rehearsal_of(mine.replace(air=None), duration=10.5)[1]
+    assert np.abs(flown.states - calm.states)[:, :3].max() > 0.01
+
+
 @pytest.mark.parametrize("rod", [0.1, 0.6])
 def test_the_rod_of_a_light_machine_keeps_hanging(rod):
     """Doublets of 0.6 of its reserve would turn it by 4 rad, and swing the rod over the horizontal."""
@@ -164,6 +202,12 @@ def test_a_machine_with_slow_rotors_stays_in_its_place():
     assert states.y[:, 2].max() < -0.4
 
 
+def test_a_lag_that_may_be_none_is_known_before():
+    search = search_from(GUESS.replace(bands={"rotor_lag": (0.0, 0.1)}), pwm=False, accelerometer=True)
+    spread = search.spread[places(search.table)["lag"]]
+    assert 1 < spread < 10  # of the logarithm
+
+
 def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):
     """Negative control: without steps and doublets yaw tells nothing of torque and inertia."""
     from flypend.identification import manoeuvre
@@ -176,6 +220,40 @@ def test_a_log_of_hover_alone_says_that_it_tells_little(tmp_path, monkeypatch):
     found = fp.identify(tmp_path / "hover.csv", GUESS)
     assert {"drag_ratio", "sag"} <= set(found.untold)
     assert "yaw doublets" in found.report()
+
+
+def test_single_wild_readings_are_left_out_and_no_others(log):
+    flown = read_log(log)
+    streams = ("position", "rotation", "gyro", "force", "rod")
+    for name in streams:
+        assert np.array_equal(getattr(drop_wild(flown), name), getattr(flown, name))
+    wild = {name: getattr(flown, name).copy() for name in streams}
+    wild["rotation"][101] = np.diag([-1, -1, 1]) @ wild["rotation"][101]
+    wild["position"][5::100, 0] += 1.0  # 1 %
+    wild["gyro"][7, 1], wild["force"][0, 2] = 1e6, 1e300
+    kept = drop_wild(replace(flown, **wild))
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.position[:, 0])), np.arange(5, len(flown.t), 100))
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.gyro[:, 0])), [7])
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.force[:, 0])), [0])
+    assert np.array_equal(np.flatnonzero(np.isnan(kept.rotation[:, 0, 0])), [101])
+
+
+def test_what_cannot_be_followed_is_said_by_row_and_channel(log):
+    flown = read_log(log)
+    gyro = flown.gyro.copy()
+    gyro[2000:2012] = 1e6
+    with pytest.raises(InputError, match=r"flight\.csv, near row 200[1-5]: expected readings of gyro"):
+        fit(replace(flown, gyro=gyro), GUESS, np.zeros(3), pwm=False)
+
+
+@pytest.mark.parametrize("where", ["begins", "ends"])
+def test_a_log_from_the_ground_is_refused_as_such(log, where):
+    flown = read_log(log)
+    rest = slice(0, 200) if where == "begins" else slice(-200, None)
+    position, command = flown.position.copy(), flown.command.copy()
+    position[rest], command[rest] = position[rest][0], 0.1
+    with pytest.raises(InputError, match=f"one that {where} at rest"):
+        fit(replace(flown, position=position, command=command), GUESS, np.zeros(3), pwm=False)
 
 
 @pytest.mark.parametrize("length", [0.7586374133985795, 0.35709547801928937, 0.6])

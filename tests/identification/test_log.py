@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from flypend.errors import InputError
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.identification.log import CRAZYFLIE, NEEDED, _check, _from_crazyflie, parse_log
+from flypend.identification.log import CRAZYFLIE, NEEDED, _check, _from_crazyflie, parse_log, read_log
 
 NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
 
@@ -40,6 +40,11 @@ def test_every_cell_is_read_where_it_stands():
     assert log.rod[7] == pytest.approx([cell["rx"], cell["ry"], cell["rz"]], rel=1e-12)  # made of length 1 again
     quaternion = np.array([cell["qx"], cell["qy"], cell["qz"], cell["qw"]])
     assert log.rotation[7] == pytest.approx(rotation_from_quat_xyzw(quaternion), abs=1e-12)
+
+
+def test_a_byte_order_mark_before_a_table_is_no_part_of_it(tmp_path):
+    (tmp_path / "excel.csv").write_text(text(table()), encoding="utf-8-sig")
+    assert np.array_equal(read_log(tmp_path / "excel.csv").t, parse_log(text(table())).t)
 
 
 def test_a_crazyflie_s_log_is_the_same_in_its_names_and_units():
@@ -107,9 +112,14 @@ WRONG = {
     "no time": (lambda r: changed(r, 90, "t", ""), "row 90, column t"),
     "time stands still": (lambda r: changed(r, 90, "t", r[88][0]), "row 90, column t.*later"),
     "a gap": (lambda r: [*r[:300], *r[400:]], "row 301, column t.*gaps"),
+    "a gap after 1970": (
+        lambda r: [r[0], *([repr(1.7e9 + float(w[0])), *w[1:]] for w in [*r[1:300], *r[400:]])],
+        "row 301, column t.*1700000003.99 after 1700000002.98",
+    ),
     "too short": (lambda r: r[:900], "10 s of flight"),
     "milliseconds": (lambda r: [r[0], *([repr(1e3 * float(w[0])), *w[1:]] for w in r[1:])], "column t.*ms"),
     "a quaternion of length 2": (lambda r: changed(r, 33, "qw", "2"), "row 33, column qw.*length"),
+    "a quaternion beyond measure": (lambda r: changed(r, 33, "qw", "1e200"), "row 33, column qw.*length inf"),
     "a rod in metres": (lambda r: changed(r, 33, "rz", "3"), "row 33, column rx.*length"),
     "a negative command": (lambda r: changed(r, 12, "u3", "-0.1"), "row 12, columns u1.*-0.1"),
     "no gyro at all": (lambda r: [r[0], *([*w[:8], "", "", "", *w[11:]] for w in r[1:])], "gyro"),

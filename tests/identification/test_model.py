@@ -19,6 +19,7 @@ from flypend.identification.model import (
     sizes,
 )
 from flypend.identification.rotors import patterns, rotor_forces, rotor_slopes, rotor_table
+from flypend.model.rod import stretch
 from flypend.plants.actuation import make_engine
 
 VEHICLE = fp.vehicle("hehn2011")
@@ -41,15 +42,19 @@ def local():
     return (lambda a, s: np.array(apart(a, s)).ravel()), (lambda s, e: np.array(move(s, e)).ravel())
 
 
-def test_the_step_without_disturbance_is_that_of_the_plant():
-    move = moves(VEHICLE)
-    s = fp.State.random(np.random.default_rng(1)).packed()
+@pytest.mark.parametrize("changes", [{}, {"rod_inertia": 0.005, "pivot_offset": (0.03, -0.02, 0.01)}])
+def test_the_step_is_that_of_the_plant(changes):
+    """Also of a rod off the centre of mass, part of whose mass stays at the pivot, and from a guess of another."""
+    vehicle = VEHICLE.replace(**changes)
+    move = moves(vehicle.replace(**stretch(vehicle, 1.2, 0.9)))
+    s, gusts = fp.State.random(np.random.default_rng(1)).packed(), np.array([0.3, -0.2, 0.1, 0.02, -0.05, 0.03])
     forces = np.array([1.0, 1.3, 1.1, 1.4])
-    known = np.r_[VEHICLE.rod_length, VEHICLE.bob_mass, np.diag(VEHICLE.inertia), VEHICLE.drag_ratio, np.zeros(6)]
-    after, *_ = move(s, np.zeros(6), np.zeros(LOCAL), forces, 0 * forces, 1e-3, 1.0, known)
-    engine = make_engine(VEHICLE.replace(rotor_lag=0.0), fp.Plant())
+    known = np.r_[vehicle.rod_length, vehicle.bob_mass, np.diag(vehicle.inertia), vehicle.drag_ratio]
+    known = np.r_[known, vehicle.pivot_offset, np.zeros(3)]
+    after, *_ = move(s, gusts, np.zeros(LOCAL), forces, 0 * forces, 1e-3, 1.0, known)
+    engine = make_engine(vehicle.replace(rotor_lag=0.0), fp.Plant())
     engine.reset(s, forces)
-    engine.step(forces, 1e-3, np.zeros(6))
+    engine.step(forces, 1e-3, gusts)
     assert np.abs(after - engine.packed).max() < 1e-9  # two integrators of order 4, over a millisecond
 
 

@@ -78,6 +78,16 @@ def test_a_flight_is_the_same_from_px4_and_from_a_table(tmp_path, mocap):
         fp.identify(path, fp.vehicle("hehn2011"))
 
 
+def test_motion_capture_that_sent_no_numbers_is_not_preferred(tmp_path):
+    rows = table()
+    lost = [("vehicle_visual_odometry", (FIRST + 10_000 * k, FIRST + 10_000 * k, *[np.nan] * 7)) for k in range(1200)]
+    path = tmp_path / "flight.ulg"
+    path.write_bytes(ulog([*flight(rows), *lost]))
+    found, same = read_log(path), parse_log(text(rows))
+    assert found.position == pytest.approx(same.position, abs=1e-6)
+    assert found.rotation == pytest.approx(same.rotation, abs=1e-6)
+
+
 def test_the_longest_flight_is_read(tmp_path):
     rows = table(rows=4000)
     times = FIRST + 1e6 * np.array([0.0, 2.0, 4.0, 6.0, 8.0, 28.0])

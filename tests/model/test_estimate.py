@@ -134,6 +134,8 @@ def test_bands_are_taken_as_known_before_by_identification():
         ({"battery": None}, "battery that goes with the motor"),
         ({"motor": "fast"}, "920 KV"),
         ({"mass": "5 kg"}, "thrust: expected at least 12.4 N"),
+        ({"thrust": 820, **BARE}, r"thrust: expected 1\.5.* times its share of .*820 N \(in gf\? write 820gf\)"),
+        ({"thrust": 0.82, **BARE}, r"\(in kgf\? write 0\.82kgf\)"),
         ({"motor": "9200 KV"}, "at most 20 times the weight"),
         ({"inertia": [5000, 5000, 9000]}, r"in kg·mm²\? write 0.005"),
         ({"rotors": 5}, "an even number"),

@@ -490,6 +490,11 @@ def test_a_vehicle_from_toml(tmp_path):
     assert again.to_dict() == vehicle.to_dict()
 
 
+def test_a_byte_order_mark_before_a_vehicle_is_no_part_of_it(tmp_path):
+    (tmp_path / "mine.toml").write_text('base = "hehn2011"\nmass = 0.6\n', encoding="utf-8-sig")
+    assert fp.vehicle(tmp_path / "mine.toml").mass == 0.6
+
+
 def test_a_toml_that_cannot_be_taken_is_refused_in_one_line(tmp_path):
     path = tmp_path / "bad.toml"
     with refused(str(path), expected="a readable TOML file", got="No such file"):
@@ -505,6 +510,20 @@ def test_a_toml_that_cannot_be_taken_is_refused_in_one_line(tmp_path):
     path.write_text(TOML.replace("mass = 1.0", "mass = -1.0", 1), encoding="utf-8")
     with refused("vehicle.mass", expected="a finite number > 0 kg", got="-1"):
         fp.Vehicle.from_toml(path)
+
+
+@pytest.mark.parametrize(
+    ("field", "changes"),
+    [
+        ("mass", {"mass": 10**400}),
+        ("inertia", {"inertia": [10**400] * 3}),
+        ("bands.mass", {"bands": {"mass": [1, 10**400]}}),
+    ],
+)
+def test_a_number_beyond_every_float_is_refused(field, changes):
+    with pytest.raises(fp.InputError, match=rf"^{field}: expected .*, got \[?1") as said:
+        fp.vehicle("hehn2011").replace(**changes)
+    assert len(str(said.value)) < 200
 
 
 def test_the_vehicles_of_the_package_are_those_announced():

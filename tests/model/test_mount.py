@@ -56,6 +56,16 @@ def test_the_distance_to_an_arm_is_the_least_over_both():
             assert value == pytest.approx(np.sqrt(squared.min()) - 0.011, abs=1e-9)
 
 
+def test_a_rotor_at_the_pivot_has_a_disc_and_no_arm():
+    centres = np.vstack([CENTRES, np.zeros(3)])
+    found, others = clearances(rods(40), centres, LENGTH, BODY), clearances(rods(40), CENTRES, LENGTH, BODY)
+    assert np.array_equal(found[:, [0, 1, 2, 3, 5, 6, 7, 8]], others)
+    assert np.all(found[:, 9] > found[:, 4])  # never the nearest part
+    symbol = ca.SX.sym("q", 3)
+    same = ca.Function("f", [symbol], [clearances(symbol, centres, LENGTH, BODY)])
+    assert np.array(same(rods(40)[7])).ravel() == pytest.approx(found[7], abs=1e-12)
+
+
 def test_between_two_arms_the_rod_passes_and_along_an_arm_it_does_not():
     """It may cross the plane of the rotors as far from the bisector as disc and rod together leave room."""
     room = np.pi / 4 - np.arcsin((BODY.disc_radius + BODY.rod_radius) / 0.17)

@@ -40,6 +40,12 @@ def test_every_world_is_within_the_bands():
     assert len(seen) == 20
 
 
+def test_a_lag_is_drawn_for_a_vehicle_that_is_written_without():
+    quick = fp.vehicle("hehn2011").replace(rotor_lag=0.0, bands={"rotor_lag": (0.02, 0.03)})
+    assert 0.02 <= worlds_within(quick, Sampled(), 1)["drawn 1"].true_vehicle(quick).rotor_lag <= 0.03
+    assert worlds_within(quick, Sampled(lag=0.01), 1)["drawn 1"].true_vehicle(quick).rotor_lag == 0.01
+
+
 def test_units_of_commanded_force_draw_the_same_worlds():
     told = MINE.replace(thrust_scale=0.9)  # what flies is told in units of the force that is asked for
     raw, flown = (worlds_within(vehicle, Sampled(), seed=3) for vehicle in (told, told.commanded()))

@@ -38,7 +38,7 @@ def read_bytes(path: str | Path, most: int, copies: int = 1) -> bytearray:
 
 def read_text(path: str | Path) -> str:
     """Return the text of the file at `path`. Raises InputError as `read_bytes` does, OSError and UnicodeDecodeError."""
-    return read_bytes(path, MOST_TEXT).decode("utf-8")
+    return read_bytes(path, MOST_TEXT).decode("utf-8-sig")
 
 
 def parse_json(text: str) -> Any:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from threadpoolctl import threadpool_limits
 
 from flypend.errors import InputError
@@ -32,6 +33,9 @@ READ = {"position": 2e-3, "attitude": 5e-3, "gyro": 2e-2, "force": 0.3, "rod": 5
 DRIVE = (5e-3, 0.3, 0.1, 0.01)
 GUST = 0.02
 ON_BOB = 4.0  # gusts on the bob over those of its share in the mass, where the search begins
+WILD = 100  # of those of readings, beyond which one among others is left out; a fifth of that of what 5 % exceed
+LOST = 1e3  # standard deviations of a prediction error that only something else than the flight explains
+AT_REST = 0.1  # m, within which a position stays for half a second; in a fall with half the thrust it moves by 0.6 m
 QUIETEST = 1e-4  # of a variance, over that with which the search begins
 # Standard deviation of a guess: of its logarithm, for what is positive and of unknown size ...
 RATIOS = {
@@ -45,6 +49,7 @@ PLAIN = {
 }  # fmt: skip
 FIELDS = {"scale": "thrust_scale", "lag": "rotor_lag", "shares": "strength"}  # of a vehicle's bands, by name here
 NORMAL_975 = 1.96  # standard deviations from the middle of a band of 95 % to its end
+NO_LAG = 1e-3  # of a band's upper end, in place of a lower one of 0, which a lag may have
 LAG, DELAY, SAG, PWM_CURVE = 0.04, 0.01, 0.03, 0.7  # where a search begins if the guess says nothing
 LEAST, MOST = {"delay": 0.0, "sag": 0.0, "curve": 0.0}, {"delay": 0.2, "sag": 0.25, "curve": 1.0}
 DRAG_TIME, WIND = 5.0, 0.03  # s in which drag stops a machine; steady wind over weight
@@ -102,7 +107,8 @@ def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
         if (field := FIELDS.get(name, name)) in (vehicle.bands or {}):
             low, high = (np.array(end) for end in vehicle.bands[field])
             logarithmic = name in RATIOS or name in ("scale", "shares")
-            spreads[name] = (np.log(high / low) if logarithmic else high - low) / (2 * NORMAL_975)
+            least = np.maximum(low, NO_LAG * high)
+            spreads[name] = (np.log(high / least) if logarithmic else high - low) / (2 * NORMAL_975)
             if name in ("spin_up", "sag", "delay", "latency"):  # no fields of a vehicle: the band's middle
                 given[name] = (low + high) / 2
             if name == "shares":
@@ -138,16 +144,20 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
     `marker` is the tracked point from the pivot, body frame, m; `pwm` says that commands are fractions; `progress` is
     called with ("pass", done, total).
     """
+    check_in_air(log, vehicle, pwm)
+    log = drop_wild(log)
     search = search_from(vehicle, pwm, bool(np.isfinite(log.force).any()))
     programs = Programs(moves(vehicle), reads(vehicle, marker))
     first = noises = first_noises(vehicle, log)
+    begun: Pass | None = None
     free, theta = search.spread > 0, np.zeros(len(search.guess))
     prior = np.where(free, search.spread, 1.0) ** -2
     for k in range(PASSES):
-        with threadpool_limits(1):  # matrices are small
+        with threadpool_limits(1), np.errstate(all="ignore"):  # matrices are small; what is no number is told below
             found = one_pass(log, search, theta, noises, programs, pwm, gated=k >= UNGATED)
+        begun = begun or found
         if not np.isfinite(found.scores).all():
-            raise InputError("log", "a flight that the equations of the vehicle can follow", "one that they cannot")
+            raise _lost(begun, log)
         slope = search.slope(theta)
         information = (found.information * np.outer(slope, slope) + np.diag(prior))[np.ix_(free, free)]
         scores = (found.scores * slope)[:, free]
@@ -190,6 +200,38 @@ def one_pass(
     middle = forces(now["rotors"])
     slopes = rotor_slopes(middle, forces, now["rotors"], names, free["rotors"])
     return run_filter(grid, middle, slopes, now["moving"], now["reading"], noises, programs, gated)
+
+
+def check_in_air(log: Log, vehicle: Vehicle, pwm: bool) -> None:
+    """Raise InputError if `log` begins or ends on the ground: at rest, with commands far below the weight."""
+    thrust = log.command.sum(axis=1) * (vehicle.rotor_limits[1] if pwm else 1.0)
+    for where, rows in (("begins", log.t < log.t[0] + 0.5), ("ends", log.t > log.t[-1] - 0.5)):
+        at = log.position[rows][np.isfinite(log.position[rows]).all(axis=1)]
+        if thrust[rows].max() < vehicle.weight / 2 and len(at) and np.ptp(at, axis=0).max() < AT_REST:
+            raise InputError(log.name, "a flight, from after take-off to before landing", f"one that {where} at rest")
+
+
+def _lost(begun: Pass, log: Log) -> InputError:
+    """Return the error that names the first reading of `log` far from its prediction in the first pass, `begun`."""
+    ratio = np.nan_to_num(np.abs(begun.errors) / begun.spreads, posinf=0.0)
+    k, i = np.argwhere(ratio >= min(LOST, ratio.max()))[0]
+    row, channel = int(np.searchsorted(log.t, log.t[0] + k * grid_step(log))) + 2, list(CHANNELS)[i // 3]
+    said = f"readings of {channel} that the equations of the vehicle can follow"
+    return InputError(f"{log.name}, near row {row}", said, f"one {ratio[k, i]:.1g} standard deviations off")
+
+
+def drop_wild(log: Log) -> Log:
+    """Return `log` without single readings that no motion makes, far from the median of five in a row."""
+    streams = {name: getattr(log, "rotation" if name == "attitude" else name).copy() for name in CHANNELS}
+    for name, stream in streams.items():
+        rows = np.flatnonzero(np.isfinite(stream.reshape(len(stream), -1)).all(axis=1))
+        if len(rows) < 5:
+            continue
+        known = stream[rows].reshape(len(rows), -1)
+        near = np.pad(np.median(sliding_window_view(known, 5, axis=0), axis=-1), ((2, 2), (0, 0)), mode="edge")
+        apart = np.abs(known - near).max(axis=1)
+        stream[rows[apart > max(WILD * READ[name], WILD / 5 * np.quantile(apart, 0.95))]] = np.nan
+    return replace(log, rotation=streams.pop("attitude"), **streams)
 
 
 def first_noises(vehicle: Vehicle, log: Log) -> Noises:

@@ -123,18 +123,18 @@ def _read_first(
     topics: dict[str, dict[str, Any]], field: str, names: Sequence[str], factors: Sequence[float],
     sources: dict[str, str],
 ) -> Columns:  # fmt: skip
-    """Return times, µs, and columns `names` of the first of `sources`, fields by topic, that was logged."""
+    """Return times, µs, and columns `names` of the first of `sources`, fields by topic, that has any number."""
     for topic, pattern in sources.items():
         data = topics.get(topic, {})
         fields = [pattern.format(i, xyz="xyz"[i % 3]) for i in range(len(names))]
-        if all(name in data for name in (*fields, "timestamp")):
+        if all(name in data for name in (*fields, "timestamp")) and any(np.isfinite(data[f]).any() for f in fields):
             # When it was measured, where that is told; when it was published otherwise.
             sampled = data.get("timestamp_sample", np.zeros(1))
             stamps, first = np.unique(sampled if np.all(sampled > 0) else data["timestamp"], return_index=True)
             with np.errstate(invalid="ignore"):  # damaged bits may be a signalling NaN
                 values = [factor * data[name][first] for name, factor in zip(fields, factors, strict=True)]
             return stamps, dict(zip(names, values, strict=True))
-    raise InputError(field, f"the topic {' or '.join(sources)}", ", ".join(topics) or "none")
+    raise InputError(field, f"the topic {' or '.join(sources)} with numbers", ", ".join(topics) or "none")
 
 
 def _commands(topics: dict[str, dict[str, Any]], field: str) -> Columns:

@@ -66,6 +66,8 @@ class Log:
         What each rotor was asked for: N, or a fraction from 0 to 1.
     fractions : bool
         Whether the format says that commands are fractions.
+    name : str
+        Of the file, for messages.
     """
 
     t: Numbers
@@ -76,6 +78,7 @@ class Log:
     rod: Numbers
     command: Numbers
     fractions: bool = False
+    name: str = "log"
 
     @property
     def duration(self) -> float:
@@ -103,7 +106,7 @@ def read_log(path: str | Path) -> Log:
                 return _check(columns, rotors, field, fractions=fractions)
         if content.startswith(USD):
             return _from_crazyflie(parse_usd(content, field), field)
-        text = content.decode("utf-8")
+        text = content.decode("utf-8-sig")
     except InputError:
         raise
     except OSError as error:
@@ -217,7 +220,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
         if np.isfinite(groups[name]).all(axis=1).sum() < SLOWEST:
             raise InputError(field, f"rows with all of {name} measured", "next to none")
     for name, first in (("q", "qw"), ("rod", "rx")):
-        length = np.linalg.norm(groups[name], axis=1)
+        with np.errstate(over="ignore"):  # of a damaged bag
+            length = np.linalg.norm(groups[name], axis=1)
         if np.any(wrong := np.abs(length - 1) > NEAR_UNIT):
             told = f"length {length[np.argmax(wrong)]:.3g}"
             raise InputError(f"{field}, row {_row(wrong)}, column {first}", "a vector of length 1", told)
@@ -230,7 +234,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
     known = np.isfinite(w[:, 0])
     rotation = np.full((len(t), 3, 3), np.nan)
     rotation[known] = rotation_from_quat_xyzw(np.concatenate([xyz, w], axis=1)[known])
-    return Log(t, groups["position"], rotation, groups["gyro"], groups["force"], groups["rod"], command, fractions)
+    gyro, force, rod = (groups[name] for name in ("gyro", "force", "rod"))
+    return Log(t, groups["position"], rotation, gyro, force, rod, command, fractions, field)
 
 
 def _hold_last(values: Any, field: str) -> Any:
@@ -249,7 +254,7 @@ def _row(wrong: Any) -> int:
 
 def _row_of(t: Any, wrong: Any) -> str:
     i = int(np.argmax(wrong))
-    return f"{t[i + 1]:.6g} after {t[i]:.6g}"
+    return f"{t[i + 1]:.15g} after {t[i]:.15g}"
 
 
 # The grid -------------------------------------------------------------------------------------------------------------

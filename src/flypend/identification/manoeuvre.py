@@ -16,6 +16,7 @@ from flypend.geometry import E3, Numbers, quat_xyzw_from_rotation, rotation_from
 from flypend.identification.log import FORCE, GYRO, POSE, ROD, SHORTEST
 from flypend.identification.model import specific_force
 from flypend.model import State, Vehicle
+from flypend.model.rod import stretch
 from flypend.model.state import SIZE
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rates_under
@@ -37,6 +38,7 @@ TILT, SWING = 0.6, 0.25
 ATTITUDE, LAG_SHARE, ATTITUDE_DAMPING, TRIM, PLACE_SHARE, SWAY = 12.0, 0.5, 2.4, 0.15, 0.133, 0.05
 ACCELEROMETER = 0.1  # m/s², standard deviation of its noise
 SCALE = 0.93  # of the rotors of a rehearsal
+WRONG = ("rod_length", "inertia", "drag_ratio", "rotor_lag")  # in its guess
 LONGEST = 600.0  # s, of a rehearsal; a log of more tells no more
 
 
@@ -67,6 +69,7 @@ def rehearse(
     gyroscope's bias has a standard deviation of `bias`, rad/s, that of the accelerometer ten times as many m/s². All
     noise is drawn by `seed`.
     """
+    vehicle, true = vehicle.commanded(), true.commanded()
     rng, n, h = np.random.default_rng(seed), len(vehicle.rotor_spins), 1 / RATE
     noise, engine = plant.noise or Noise(), make_engine(true, plant)
     hover = np.full(n, vehicle.weight / n)
@@ -149,10 +152,11 @@ def _feedback(t: float, read: Any, turned: Any, vehicle: Vehicle, attitude: floa
 
 
 def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> tuple[Vehicle, Rehearsal]:
-    """Return a guess at `vehicle`, wrong by some tenths, and the flight of a machine with gusts, noise, sag and delay.
+    """Return a guess at `vehicle`, wrong by some tenths, and its flight in air, with gusts, noise, sag and delay.
 
-    The rotors push `SCALE` times what they are asked for. Lag, delay, sag and strengths are drawn by `seed`. Raises
-    InputError for a `duration` (s) whose log `read_log` would not take, or longer than `LONGEST`.
+    The guess has no bands of the numbers in `WRONG`. The rotors push `SCALE` times what `vehicle` says. Delay, sag and
+    strengths are drawn by `seed`. Raises InputError for a `duration` (s) whose log `read_log` would not take, or longer
+    than `LONGEST`.
     """
     errors.number("duration", duration, at_least=SHORTEST + 0.5, at_most=LONGEST, unit="s")
     rng = np.random.default_rng(seed)
@@ -161,11 +165,13 @@ def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> 
         return 1 + float(rng.uniform(-share, share))
 
     guess = vehicle.replace(
-        rod_length=vehicle.rod_length * off(0.1), rod_end=vehicle.reach * 1.15,
-        drag_ratio=vehicle.drag_ratio * off(0.3), inertia=vehicle.inertia * off(0.3), rotor_lag=0.03,
+        **stretch(vehicle, 1.0, off(0.1)), drag_ratio=vehicle.drag_ratio * off(0.3),
+        inertia=vehicle.inertia * off(0.3), rotor_lag=0.03,
+        bands={name: band for name, band in (vehicle.bands or {}).items() if name not in WRONG},
     )  # fmt: skip
-    gust = 0.02 * vehicle.weight
+    gust = 0.02 * vehicle.commanded().weight
     plant = Plant(
+        air=() if vehicle.air is None else vehicle.air.active(),
         delay=rng.uniform(0, 0.02), sag=rng.uniform(0.02, 0.08), spin_up=rng.uniform(1, 1.4),
         strength=tuple(SCALE * (1 + rng.uniform(-0.05, 0.05, len(vehicle.rotor_spins)))),
         noise=Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),

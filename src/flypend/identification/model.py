@@ -54,16 +54,16 @@ def split(table: dict[str, int], values: Any) -> dict[str, Any]:
 def machine(vehicle: Vehicle, moving: Numbers) -> Any:
     """Return `vehicle` with the symbols `moving` in place of its numbers, without friction and spin of the rod.
 
-    Its rod is the equivalent point bob; see `Vehicle`.
+    The rod keeps its shape, and so the share of its mass in the equivalent point bob; see `Vehicle`.
     """
     v = split(MOVING, moving)
     share = vehicle.m / vehicle.bob_mass
-    M = vehicle.mass + (1 - share) * v["bob_mass"]
     principal = ca.diag(v["inertia"]) + ca.DM(vehicle.inertia - np.diag(np.diag(vehicle.inertia)))
     return Altered(
-        vehicle, M=M, mass=M, m=share * v["bob_mass"], l=v["rod_length"] / share, I=principal,
-        I_inv=ca.inv_minor(principal), pivot_offset=v["pivot_offset"], drag_ratio=v["drag_ratio"], wind=v["wind"],
-        rubs=False, rod_spin=0.0, air=SimpleNamespace(rotor_drag=v["rotor_drag"], active=lambda: ("rotor_drag",)),
+        vehicle, bob_mass=v["bob_mass"], M=vehicle.mass + (1 - share) * v["bob_mass"], m=share * v["bob_mass"],
+        l=v["rod_length"] / share, I=principal, I_inv=ca.inv_minor(principal), pivot_offset=v["pivot_offset"],
+        drag_ratio=v["drag_ratio"], wind=v["wind"], rubs=False, rod_spin=0.0,
+        air=SimpleNamespace(rotor_drag=v["rotor_drag"], active=lambda: ("rotor_drag",)),
     )  # fmt: skip
 
 

@@ -67,14 +67,17 @@ class Identified:
 
     def report(self) -> str:
         """Return a page of text: every number with its band, what stays open, and how well the model fits."""
-        fit, lines = self._fit, []
-        for name, (low, high) in self.bands.items():
-            for i, (a, b) in enumerate(zip(np.ravel(low), np.ravel(high), strict=True)):
-                label = name if np.size(low) == 1 else f"{name}[{i}]"
+        fit, machine, lines = self._fit, self.vehicle, []
+        found = fit.search.values(fit.theta) | vars(self.plant) | vars(machine) | {"inertia": np.diag(machine.inertia)}
+        found["rotor_drag"] = np.maximum(found["rotor_drag"], 0.0)
+        for name, ends in self.bands.items():
+            for i, (value, a, b) in enumerate(zip(*map(np.ravel, (found[name], *ends)), strict=True)):
+                label = name if np.size(ends) == 2 else f"{name}[{i}]"
                 said = "  as known before" if name in self.untold else ""
-                lines.append(f"{label:16s} {(a + b) / 2:12.5g}   {a:.5g} to {b:.5g}{said}")
+                lines.append(f"{label:16s} {value:12.5g}   {a:.5g} to {b:.5g}{said}")
         low, high = self.torque_over_inertia
-        lines.append(f"{'drag_ratio / I_3':16s} {(low + high) / 2:12.5g}   {low:.5g} to {high:.5g}")
+        ratio = machine.drag_ratio / machine.inertia[2, 2]
+        lines.append(f"{'drag_ratio / I_3':16s} {ratio:12.5g}   {low:.5g} to {high:.5g}")
         lines += ["", "prediction errors      rms, over expected, correlation with the next"]
         for name in CHANNELS:
             rms, ratio, correlation = self._explain(name)
@@ -83,6 +86,8 @@ class Identified:
                 lines.append(f"{name:16s} {rms:12.3g} {ratio:10.2f} {correlation:10.2f}{colour}")
         asked = dict.fromkeys(MORE[name] for name in MORE if FIELDS.get(name, name) in self.untold)
         lines += ["", f"{fit.passes} passes of the filter, {'converged' if fit.converged else 'NOT converged'}"]
+        if fit.last.refused:
+            lines.append(f"{fit.last.refused} readings left out, as they are far from their predictions")
         lines += [f"to tell more: {one}" for one in asked]
         return "\n".join(lines) + "\n"
 
@@ -113,6 +118,9 @@ def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
     """Return what `fit` says of `guess`, whose mass is known within the share `mass_error`."""
     search, n = fit.search, len(guess.rotor_spins)
     values, at = search.values(fit.theta), places(search.table)
+    a, b, c = values["inertia"]
+    flat = min(1.0, (a + b) / c)  # moments keep the triangle inequality; what is told is their quotient with the torque
+    values |= {"inertia": np.array([a, b, flat * c]), "drag_ratio": flat * values["drag_ratio"]}
     errors = np.sqrt(np.diag(fit.covariance))
     spans: dict[str, Any] = {}
     for name, place in at.items():
@@ -148,12 +156,10 @@ def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> 
     """Return the vehicle with the numbers found. A pivot stays where the guess has it unless its band excludes that."""
     number = {name: float(value[0]) for name, value in values.items() if len(value) == 1}
     inertia = np.array(guess.inertia)
-    a, b, c = values["inertia"]
-    flat = min(1.0, (a + b) / c)  # moments keep the triangle inequality; what is told is their quotient with the torque
-    np.fill_diagonal(inertia, [a, b, flat * c])
+    np.fill_diagonal(inertia, values["inertia"])
     rod = stretch(guess, number["bob_mass"] / guess.bob_mass, number["rod_length"] / guess.rod_length)
     changes: dict[str, Any] = rod | {
-        "inertia": inertia, "drag_ratio": flat * number["drag_ratio"], "rotor_lag": number["lag"],
+        "inertia": inertia, "drag_ratio": number["drag_ratio"], "rotor_lag": number["lag"],
         "thrust_scale": float(np.exp(number["scale"])), "bands": bands,
     }  # fmt: skip
     low, high = (np.array(end) for end in bands["pivot_offset"])

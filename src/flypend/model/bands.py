@@ -16,24 +16,27 @@ BANDED = (
     "mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_lag", "spin_up", "thrust_scale", "pivot_offset",
     "rotor_drag", "sag", "delay", "latency", "strength", "rotor_limits",
 )  # fmt: skip
+POSITIVE = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "spin_up", "thrust_scale", "strength")
+SIGNED = ("pivot_offset", "latency")
 
 
-def bands_from(value: Any) -> Mapping[str, tuple[Any, Any]] | None:
-    """Return `value`, field → (low, high), as an unchangeable record, or None. Raises InputError."""
+def bands_from(value: Any, rotors: int) -> Mapping[str, tuple[Any, Any]] | None:
+    """Return `value`, field → (low, high) of a vehicle with `rotors`, as an unchangeable record, or None.
+
+    Raises InputError.
+    """
     if value is None:
         return None
     if not isinstance(value, Mapping):
         raise InputError("bands", "a table of field = [low, high]", repr(value))
     errors.only_known("bands", value, BANDED)
-    return MappingProxyType({name: _band(f"bands.{name}", band) for name, band in value.items()})
+    shapes = {"inertia": (3,), "pivot_offset": (3,), "rotor_limits": (2,), "strength": (rotors,)}
+    return MappingProxyType({name: _band(name, band, shapes.get(name, ())) for name, band in value.items()})
 
 
-def _band(field: str, band: Any) -> tuple[Any, Any]:
-    try:
-        low, high = (np.asarray(end, dtype=float) for end in band)
-    except (TypeError, ValueError):
-        raise InputError(field, "two numbers, low and high, or two lists of them", repr(band)[:80]) from None
-    fits = low.shape == high.shape and low.ndim <= 1 and np.isfinite(low).all() and np.isfinite(high).all()
-    if not fits or np.any(low > high):
-        raise InputError(field, "finite numbers, low <= high, of one shape", repr(band)[:80])
+def _band(name: str, band: Any, shape: tuple[int, ...]) -> tuple[Any, Any]:
+    low, high = errors.array(f"bands.{name}", band, (2, *shape))
+    least = "" if name in SIGNED else "0 < " if name in POSITIVE else "0 <= "
+    if np.any(low > high) or (least and np.any(low < 0)) or (name in POSITIVE and not np.all(low)):
+        raise InputError(f"bands.{name}", f"{least}low <= high", repr(band)[:80])
     return tuple(float(end) if end.ndim == 0 else tuple(end.tolist()) for end in (low, high))  # type: ignore[return-value]

@@ -43,6 +43,7 @@ LAG, LAG_BAND = 0.045, 2.2  # s
 DRAG_PER_DIAMETER, DRAG_BAND = 0.26, 2.2  # N^½ s/m²
 IDLE, MOST_IDLE = 0.03, 0.15  # least force over the largest, as motors and firmware allow
 SURPLUS, SURPLUS_BAND = 2.0, 1.8  # thrust of all rotors over weight, where no motor is given
+MEASURED_BAND = 1.1  # of a thrust that was measured
 ARM_RADIUS, HUB_RADIUS, ROD_RADIUS = 0.04, 0.2, 0.005  # over the arm, the arm, and the rod
 OFF_CENTRE = 0.05  # pivot off the centre of mass over arm
 MOST_ROTORS, MOST_SURPLUS = 12, 20.0
@@ -248,7 +249,9 @@ def _thrust(measured: Measured, motor: dict[str, Any], prop: dict[str, Any], sha
         missing, there = ("battery", "motor") if motor else ("motor", "battery")
         raise InputError(missing, f"the {missing} that goes with the {there}", "nothing")
     if thrust is not None:
-        return quantity("thrust", thrust, "N", 0.01, 2000), "measured", 1.1
+        low, high = share / MEASURED_BAND, MOST_SURPLUS * MEASURED_BAND * share
+        why = f"of one rotor, 1 to {MOST_SURPLUS:g} times its share of the weight"
+        return quantity("thrust", thrust, "N", low, high, why), "measured", MEASURED_BAND
     if not motor:
         return SURPLUS * share, f"{SURPLUS:g} times the weight on all rotors, chosen: a motor would tell", SURPLUS_BAND
     speed = LOADED * motor["kv"] * _volts(battery) * 2 * np.pi / 60

@@ -133,9 +133,9 @@ def _of_rigid_body(
     on_vehicle, on_rod = scale(1.0, disturbance.force_on_vehicle), scale(1.0, disturbance.force_on_bob)
     if is_point(vehicle):
         return offset, vehicle.I, vehicle.I_inv, wrench.moment, on_vehicle, on_rod
-    own, M, o = vehicle.mass, vehicle.M, np.asarray(offset, dtype=float)
+    own, M, o = vehicle.mass, vehicle.M, scale(1.0, offset)
     share = 1 - own / M
-    I = vehicle.I + own * share * (o @ o * np.eye(3) - np.outer(o, o))  # parallel axes, reduced mass
+    I = vehicle.I - own * share * (hat(o) @ hat(o))  # parallel axes, reduced mass
     at_pivot, on_bob = share_out(on_rod, vehicle)
     back = transpose(state.R)
     pushed = apply(back, on_vehicle) + scale(wrench.thrust, E3)

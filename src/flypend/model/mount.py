@@ -117,7 +117,8 @@ def clearances(rod: Vector, centres: Numbers, length: float, body: Body) -> Numb
         The radii.
     """
     discs = [_to_disc(rod, centre, length, body) for centre in centres]
-    arms = [_to_arm(_inner(rod, centre) / np.linalg.norm(centre), body) for centre in centres]
+    lengths = np.linalg.norm(centres, axis=1)  # 0 at the pivot: no arm there, or one on the other side
+    arms = [_to_arm(_inner(rod, c) / (s or 1.0) - float(s == 0), body) for c, s in zip(centres, lengths, strict=True)]
     return ca.vertcat(*discs, *arms) if is_symbolic(rod) else np.stack([*discs, *arms], axis=-1)
 
 

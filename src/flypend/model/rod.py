@@ -53,8 +53,8 @@ def stretch(vehicle: Any, heavier: float, longer: float) -> dict[str, Any]:
 
 
 def is_point(vehicle: Any) -> bool:
-    """Whether the rod of `vehicle`, whose numbers may be symbols, is a point mass."""
-    return vehicle.M is vehicle.mass or vehicle.rod_inertia == 0
+    """Whether the rod of `vehicle`, whose other numbers may be symbols, is a point mass."""
+    return bool(vehicle.rod_inertia == 0)
 
 
 def share_out(on_rod: Vector, vehicle: Any) -> tuple[Vector, Vector]:

@@ -143,7 +143,7 @@ class Vehicle:
         put("body", _record(Body, "body", self.body, "a Body"))
         put("pivot_offset", errors.array("pivot_offset", self.pivot_offset, (3,)))
         put("air", _record(Air, "air", self.air, "an Air"))
-        put("bands", bands_from(self.bands))
+        put("bands", bands_from(self.bands, len(self.rotor_spins)))
         if self.mount != "gimbal" and self.body is None:
             raise InputError("body", f"the radii of the machine's parts, for the mount {self.mount!r}", "nothing")
         rank = np.linalg.matrix_rank(self.mixing())

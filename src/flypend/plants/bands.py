@@ -44,6 +44,8 @@ def world_of(vehicle: Vehicle, plant: Sampled, found: Mapping[str, Any]) -> Samp
     push = found.get("thrust_scale", vehicle.thrust_scale) / vehicle.thrust_scale
     strength = push * np.broadcast_to(found.get("strength", plant.strength), (len(vehicle.rotor_spins),))
     changes: dict[str, Any] = {name: float(found[name]) for name in ("spin_up", "sag", "delay") if name in found}
+    if "rotor_lag" in found and vehicle.rotor_lag == 0 and plant.lag is None:
+        changes["lag"] = float(found["rotor_lag"])
     if "pivot_offset" in found:
         changes["pivot_offset"] = found["pivot_offset"] - vehicle.pivot_offset
     return plant.replace(mismatch=mismatch, strength=strength.tolist(), **changes)

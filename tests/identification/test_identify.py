@@ -246,13 +246,11 @@ def test_what_cannot_be_followed_is_said_by_row_and_channel(log):
         fit(replace(flown, gyro=gyro), GUESS, np.zeros(3), pwm=False)
 
 
-@pytest.mark.parametrize("where", ["begins", "ends"])
-def test_a_log_from_the_ground_is_refused_as_such(log, where):
+def test_a_log_that_begins_on_the_ground_is_refused_as_such(log):
     flown = read_log(log)
-    rest = slice(0, 200) if where == "begins" else slice(-200, None)
     position, command = flown.position.copy(), flown.command.copy()
-    position[rest], command[rest] = position[rest][0], 0.1
-    with pytest.raises(InputError, match=f"one that {where} at rest"):
+    position[:200], command[:200] = position[0], 0.1
+    with pytest.raises(InputError, match="one that begins at rest"):
         fit(replace(flown, position=position, command=command), GUESS, np.zeros(3), pwm=False)
 
 

@@ -203,12 +203,12 @@ def one_pass(
 
 
 def check_in_air(log: Log, vehicle: Vehicle, pwm: bool) -> None:
-    """Raise InputError if `log` begins or ends on the ground: at rest, with commands far below the weight."""
-    thrust = log.command.sum(axis=1) * (vehicle.rotor_limits[1] if pwm else 1.0)
-    for where, rows in (("begins", log.t < log.t[0] + 0.5), ("ends", log.t > log.t[-1] - 0.5)):
-        at = log.position[rows][np.isfinite(log.position[rows]).all(axis=1)]
-        if thrust[rows].max() < vehicle.weight / 2 and len(at) and np.ptp(at, axis=0).max() < AT_REST:
-            raise InputError(log.name, "a flight, from after take-off to before landing", f"one that {where} at rest")
+    """Raise InputError if `log` begins on the ground: at rest, with commands far below the weight."""
+    rows = log.t < log.t[0] + 0.5
+    thrust = log.command[rows].sum(axis=1) * (vehicle.rotor_limits[1] if pwm else 1.0)
+    at = log.position[rows][np.isfinite(log.position[rows]).all(axis=1)]
+    if thrust.max() < vehicle.weight / 2 and len(at) and np.ptp(at, axis=0).max() < AT_REST:
+        raise InputError(log.name, "a flight from after take-off on", "one that begins at rest")
 
 
 def _lost(begun: Pass, log: Log) -> InputError:

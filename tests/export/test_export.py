@@ -391,7 +391,7 @@ def test_what_cannot_be_exported_is_refused_and_nothing_is_written(tmp_path):
     cases = [
         (_own(lambda t, s, v, k: Wrench(ca.sin(s.x[2]), ca.SX.zeros(3))), VEHICLE, "square root, got sin"),
         (_own(lambda t, s, v, k: Wrench(t, ca.SX.zeros(3))), VEHICLE, "one that does not depend on time"),
-        (_own(lambda t, s, v, k: Wrench(float(v.M), ca.SX.zeros(3))), VEHICLE, "for a vehicle of symbols"),
+        (_own(lambda t, s, v, k: Wrench(float(v.M), ca.SX.zeros(3))), VEHICLE, "a symbol is not a number"),
         (fp.Controller(name="python", function=lambda t, s: hover), VEHICLE, "law: expected a Law"),
         (fp.laws.inverted(), asymmetric, "rotors that share thrust and yaw equally"),
         (fp.laws.inverted(), "hehn2011", "vehicle: expected a Vehicle"),
@@ -405,7 +405,7 @@ def test_what_cannot_be_exported_is_refused_and_nothing_is_written(tmp_path):
         with pytest.raises(fp.InputError, match="rate: expected"):
             fp.export_c(fp.laws.inverted(), VEHICLE, tmp_path / "out", rate=rate)
     for folder in (tmp_path / "no" / "such" / "folder", tmp_path / "a\0b"):
-        with pytest.raises(fp.InputError, match="a folder that can be written"):
+        with pytest.raises(fp.InputError, match=r"a folder that can be written|a name that a file can have"):
             fp.export_c(fp.laws.inverted(), VEHICLE, folder, check=False)
     assert not list(tmp_path.iterdir())
 

@@ -221,9 +221,6 @@ def _law(law: BoundLaw, params: Any, vehicle: Any) -> tuple[list[str], tuple[str
         values = ca.DM([law.numbers[name] for name in constant])
         wrench = ca.substitute(wrench, ca.vertcat(*(gains[name] for name in constant)), values)
         names = [name for name in names if name not in constant]
-        program = lower(written(wrench))
-    if any(math.isnan(operation.value) for operation in program.operations):  # float() of a symbol
-        raise InputError("law", "equations that hold for a vehicle of symbols", f"{law.name}, which has NaN in them")
     return names, (*law.fixed, *constant), written(wrench)
 
 

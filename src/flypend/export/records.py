@@ -133,6 +133,7 @@ class SymbolicVehicle:
         self.M = self.mass = v["mass"]
         self.m = self.bob_mass = v["bob_mass"]
         self.l = self.rod_length = v["rod_length"]
+        self.rod_inertia = 0.0  # of the equivalent simple pendulum
         self.g = self.gravity = v["gravity"]
         self.I = self.inertia = _inertia(v["inertia"])
         self.rotor_limits = (v["rotor_least"], v["rotor_largest"])

@@ -33,7 +33,7 @@ def package(tmp_path_factory):
     folder = tmp_path_factory.mktemp("package")
     shutil.copytree(Path(fp.__file__).parent, folder / "flypend", ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "flypend" / "laws" / "tame.py").write_text(LAW, encoding="utf-8")
-    named = folder / "flypend" / "laws" / "named.py"
+    named = folder / "flypend" / "laws" / "by_name.py"
     text = named.read_text(encoding="utf-8")
     text = text.replace("\n\nFACTORIES", "\nfrom flypend.laws.tame import tame\n\nFACTORIES", 1)
     text = text.replace('    "lqr": lqr,\n', '    "lqr": lqr,\n    "tame": tame,\n', 1)

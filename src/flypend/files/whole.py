@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from errno import ENAMETOOLONG
 from pathlib import Path
 from typing import TYPE_CHECKING
 from uuid import uuid4
@@ -47,10 +48,11 @@ def check_file(path: str | Path, suffixes: Sequence[str], field: str = "path") -
 def check_name(path: Path) -> None:
     """Raise InputError if no file can have the name `path`."""
     try:
-        with suppress(OSError):
-            path.lstat()
-    except ValueError as error:
-        raise errors.InputError(ascii(str(path)), "a name that a file can have", error) from None
+        path.lstat()
+    except (OSError, ValueError) as error:
+        if isinstance(error, ValueError) or error.errno == ENAMETOOLONG:
+            why = getattr(error, "strerror", error)
+            raise errors.InputError(ascii(str(path)), "a name that a file can have", why) from None
 
 
 def check_same(path: Path, content: bytes, what: str) -> None:

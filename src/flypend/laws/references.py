@@ -59,7 +59,7 @@ def check_reference(reference: Any, field: str = "reference") -> None:
 
 @builds
 def _try_reference(reference: Any, field: str) -> None:
-    what = "a function of time that gives CasADi's position (3, 1), such as laws.references.hover((0, 0, 1))"
+    what = "a function of time that gives a position (3, 1) of CasADi, such as laws.references.hover((0, 0, 1))"
     if not callable(reference):
         raise InputError(field, what, repr(reference)[:80])
     try:

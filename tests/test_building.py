@@ -8,7 +8,7 @@ import casadi as ca
 import pytest
 
 import flypend as fp
-from flypend.building import building
+from flypend.building import building, no_numbers
 from flypend.plants import SUITES
 
 
@@ -77,3 +77,12 @@ with multiprocessing.get_context("fork").Pool(1) as pool:
 """
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
     assert told.stdout == "7\n", told.stderr
+
+
+def test_a_symbol_is_no_number_where_branches_would_be_lost():
+    symbol = ca.SX.sym("x")
+    with no_numbers():
+        assert float(ca.SX(2.0)) == 2.0
+        with pytest.raises(TypeError):
+            float(symbol)
+    assert float(symbol) != float(symbol)  # NaN

@@ -164,8 +164,8 @@ def _check_call(
     kinds = {parameter.kind for parameter in known}
     by_place = [parameter for parameter in known if parameter.kind is parameter.POSITIONAL_OR_KEYWORD]
     if len(args) > len(by_place) and inspect.Parameter.VAR_POSITIONAL not in kinds:
-        told = f"such as {known[0].name}=" if known else "none"
-        raise InputError(name, f"arguments by name, {told}", f"{len(args)} without")
+        hint = f"such as {known[0].name}=" if known else "none"
+        raise InputError(name, f"arguments by name, {hint}", f"{len(args)} without")
     values = {**dict(zip([parameter.name for parameter in by_place], args, strict=False)), **given}
     for parameter in known:
         if parameter.name in values:
@@ -262,7 +262,7 @@ def _name_of(kind: Any) -> str:
         return "None"
     if get_origin(kind) is Literal:
         return "one of " + ", ".join(map(repr, get_args(kind)))
-    plain = next((told for known, _, told in _KINDS if kind is known), "")
+    plain = next((words for known, _, words in _KINDS if kind is known), "")
     origin = get_origin(kind) or kind
     if plain or origin is Callable:
         return plain or "a function"

@@ -81,11 +81,11 @@ def law_command(loop: Loop, nominal: Nominal, steer: Steering, reference: int = 
     rotors, outside = ca.SX.sym("r", nominal.rotors), ca.SX.sym("F", OUTSIDE.length)
     path = ca.SX.sym("path", reference)
     gains = {name: p[i] for i, name in enumerate(loop.parameters)}
-    told = OUTSIDE.split(outside)
+    parts = OUTSIDE.split(outside)
     vehicle = nominal.vehicle
     if loop.symbolic.uses_forces:
         vehicle = Altered(vehicle, l=found_length(vehicle, outside))
-    wrench = steer(t, packed, told["forces"], path, gains, vehicle)
+    wrench = steer(t, packed, parts["forces"], path, gains, vehicle)
     check_parameters(loop.law.name, wrench, loop.parameters, p)
     wrench = rescale(ca.substitute(wrench, t, t + horizon), outside)
     command = to_command(loop, nominal, wrench, packed, rotors)
@@ -96,9 +96,9 @@ def law_command(loop: Loop, nominal: Nominal, steer: Steering, reference: int = 
 def total_forces(nominal: Nominal) -> ca.Function:
     """Return (state (24,), rotors (n,), `OUTSIDE` (8,)) → external forces (6,), N, with what scales the thrust."""
     packed, rotors, outside = ca.SX.sym("s", SIZE), ca.SX.sym("r", nominal.rotors), ca.SX.sym("F", OUTSIDE.length)
-    told = OUTSIDE.split(outside)
-    scaled = told["scale"] * ca.sum1(rotors) * State.symbolic(packed).z
-    return ca.Function("total", [packed, rotors, outside], [told["forces"] + ca.vertcat(scaled, np.zeros(3))])
+    parts = OUTSIDE.split(outside)
+    scaled = parts["scale"] * ca.sum1(rotors) * State.symbolic(packed).z
+    return ca.Function("total", [packed, rotors, outside], [parts["forces"] + ca.vertcat(scaled, np.zeros(3))])
 
 
 def found_length(vehicle: Any, outside: Numbers) -> Scalar:

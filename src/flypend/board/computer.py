@@ -90,13 +90,13 @@ class SteppedBoard:
 
     def ask(self, t: float, measured: Numbers) -> Numbers:
         """As `command`, before it is trimmed."""
-        stages, outside, told = self._stages, None, []
+        stages, outside, extra = self._stages, None, []
         if stages.correct is not None:
             self.filtered, measured, outside = stages.correct(self._expecting, measured, NONE)
-            told = [outside] if filters(stages.made.loop.sampled) else []
+            extra = [outside] if filters(stages.made.loop.sampled) else []
         self.estimated = measured
         measurement = np.append(t, measured)
-        kept, forces, state, rotors, horizon = stages.predict(self._memory, measurement, NONE, *told)
+        kept, forces, state, rotors, horizon = stages.predict(self._memory, measurement, NONE, *extra)
         self.predicted = (state, rotors, forces)
         command = self._steer(t + horizon.item(), state, rotors, forces)
         after = stages.remember(self._memory, kept, measurement, forces, command, NONE)

@@ -68,12 +68,12 @@ class DelayEstimator:
     """
 
     def __init__(
-        self, nominal: Nominal, told: float, reach: float, period: float, lag_left: float = 0.0, assumed: float = 0.0
+        self, nominal: Nominal, initial: float, reach: float, period: float, lag_left: float = 0.0, assumed: float = 0.0
     ) -> None:
         self._assumed = max(assumed, LEAST * period)
         self._lag_left = lag_left
         self._nominal, self._period = nominal, period
-        self._told, self._longest = max(told, LEAST * period), told + reach
+        self._told, self._longest = max(initial, LEAST * period), initial + reach
         self._stride = max(1, round(SPACING / period))
         self.depth = int(np.ceil(self._longest / self._spacing - 1e-9))
 
@@ -126,16 +126,16 @@ class DelayEstimator:
         wrong = (omega - before) / h - model - angular_acceleration(ca.SX.zeros(3), (before + omega) / 2, b.vehicle)
         spread = sum(ca.sumsqr(other - turning) for other in others)
         trim = trimming.follow_lever(trim, ca.mtimes(b.vehicle.I, wrong), acting[0], spread, begun, h, b.vehicle)
-        share, told = -np.expm1(-BAND / self._longest * h), trimming.RECORD.split(trim)
-        tilting = ca.mtimes(b.vehicle.I_inv, told["lever"])
-        whole = wrong + slope * delay + acting[0] * tilting + told["strength"] * model
+        share, parts = -np.expm1(-BAND / self._longest * h), trimming.RECORD.split(trim)
+        tilting = ca.mtimes(b.vehicle.I_inv, parts["lever"])
+        whole = wrong + slope * delay + acting[0] * tilting + parts["strength"] * model
         smooth = smooth + share * (begun * ca.vertcat(whole, slope, model, acting[0]) - smooth)
         smoother = smoother + share * (smooth - smoother)
         whole, slope, model, thrust = ca.vertsplit(smoother, [0, 3, 6, 9, 10])
         lacking = whole - slope * delay
         information = np.exp(-h / FORGETTING) * known + h * ca.sumsqr(slope)
         gain = 1 / (information + DOUBT * angular_authority(b.vehicle) ** 2)
-        moves = gain * ca.dot(slope, lacking - thrust * tilting - told["strength"] * model)
+        moves = gain * ca.dot(slope, lacking - thrust * tilting - parts["strength"] * model)
         found = delay + h * moves
         sure = h * gain * information / (1 + (moves / SETTLED) ** 2)
         trim = trimming.follow_strength(trim, lacking, model, thrust, sure, b.vehicle)
@@ -165,8 +165,8 @@ class DelayEstimator:
     def acting(self) -> ca.Function:
         """Return (memory, rotors (n,), params) → the forces (n,) that act by then, N, after a step with that memory.
 
-        Their delay is the one found, as far as the past tells it, and else the one assumed: `told` is in the middle of
-        what a predictor survives, and of forces one knows better.
+        Their delay is the one found, as far as the past tells it, and else the one assumed: the `initial` one is in the
+        middle of what a predictor survives, and of forces one knows better.
         """
         b, memory = self._nominal, ca.SX.sym("memory", self.record.length)
         rotors = ca.SX.sym("r", b.rotors)
@@ -180,9 +180,9 @@ class DelayEstimator:
         """Return (state (24,), horizon, wrenches (4, 3), `OUTSIDE` (8,), params) → state (24,) at the horizon."""
         b = self._nominal
         packed, horizon, outside = ca.SX.sym("s", SIZE), ca.SX.sym("d"), ca.SX.sym("F", OUTSIDE.length)
-        wrenches, told = ca.SX.sym("W", WRENCH, 3), OUTSIDE.split(outside)
-        scaled = ca.vertcat((1 + told["scale"]) * wrenches[0, :], wrenches[1:, :])
-        moved = cascade_step(packed, Ramp(scaled[:, 0], scaled[:, 1]), told["forces"], horizon, b.vehicle)
+        wrenches, parts = ca.SX.sym("W", WRENCH, 3), OUTSIDE.split(outside)
+        scaled = ca.vertcat((1 + parts["scale"]) * wrenches[0, :], wrenches[1:, :])
+        moved = cascade_step(packed, Ramp(scaled[:, 0], scaled[:, 1]), parts["forces"], horizon, b.vehicle)
         return ca.Function("act_later", [packed, horizon, wrenches, outside, b.symbols], [ca.cse(ca.densify(moved))])
 
     def skip(self) -> ca.Function:

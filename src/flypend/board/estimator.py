@@ -177,8 +177,8 @@ class Filter:
                 parts["felt"] = accelerometer.correct_bias(parts["felt"], correction, taken)
             else:
                 parts["felt"] = accelerometer.correct_bias(parts["felt"], -pace * s.R.T @ error[error_state.VELOCITY])
-            fresh, told = expected.felt(accelerometer.RECORD.split(parts["felt"])["bias"], vehicle)
-            given = (fresh, told, thrust, departure, vehicle, self.sensors, self.period)
+            fresh, reading = expected.felt(accelerometer.RECORD.split(parts["felt"])["bias"], vehicle)
+            given = (fresh, reading, thrust, departure, vehicle, self.sensors, self.period)
             parts["felt"] = accelerometer.correct(parts["felt"], *given)
             outside = outside + ca.vertcat(self._accelerometer_force(parts, s.R), np.zeros(3))
             scale = _scale(outside[:3], thrust, s.z, vehicle)

@@ -20,8 +20,8 @@ from flypend.model import State, linear_momentum
 from flypend.model.momenta import pull_on_rod, split_force
 from flypend.model.state import SIZE
 
-TOLD = Record(
-    "told",
+SCALE_SUMS = Record(
+    "scale_sums",
     "What the flight tells of the scale of the thrust.",
     (
         Field("risen", 0, "a constant 1 behind the filter of the observer, from its first step on"),
@@ -41,7 +41,7 @@ RECORD = Record(
         Field("known", 6, "the part of their rates that is known, N and 1/s^2"),
         Field("unknown", 6, "estimate of the rest, due to external forces, N and 1/s^2"),
         Field("thrust", 6, "what the thrust does to both, as late as that estimate, N and 1/s^2"),
-        Field("told", TOLD.length, "of the scale of the thrust"),
+        Field("scale_sums", SCALE_SUMS.length, "of the scale of the thrust"),
     ),
 )
 # Time over which means are taken, s, each value counting by how far a constant has risen behind the filter. A constant
@@ -94,7 +94,7 @@ def observer(nominal: Nominal, computer: Computer, period: float, thrusts: int) 
     vehicle, L = nominal.vehicle, computer.observer
     packed, given = ca.SX.sym("s", SIZE), ca.SX.sym("f", thrusts)
     memory = ca.SX.sym("memory", RECORD.length)
-    begun, momenta, before, estimate, thrust, told = RECORD.split(memory).values()
+    begun, momenta, before, estimate, thrust, scale_sums = RECORD.split(memory).values()
     s = State.symbolic(packed)
     measured = ca.vertcat(linear_momentum(s, vehicle), cross(s.y, s.y_dot))
     f = ca.sum1(given)
@@ -104,33 +104,36 @@ def observer(nominal: Nominal, computer: Computer, period: float, thrusts: int) 
     following = ca.if_else(begun, following, measured - estimate / L)  # keeps the estimate unchanged
     unknown = L * (measured - following)
     thrust = thrust + L * period * (by_thrust - thrust)
-    told, scale = _learn(TOLD.split(told), thrust[:3], unknown[:3], period, L, vehicle.weight)
+    scale_sums, scale = _learn(SCALE_SUMS.split(scale_sums), thrust[:3], unknown[:3], period, L, vehicle.weight)
     rest = unknown - scale * thrust
     # F_v + F_b, and D without its component along the rod.
     limit = computer.force_limit * vehicle.weight
     split = split_force(rest[:3], vehicle.l * cross(rest[3:], s.y), vehicle)
     forces = [shorten(force, limit) for force in split]
-    kept = {"begun": 1, "momenta": following, "known": known, "unknown": unknown, "thrust": thrust, "told": told}
+    kept = {
+        "begun": 1, "momenta": following, "known": known, "unknown": unknown, "thrust": thrust,
+        "scale_sums": scale_sums,
+    }  # fmt: skip
     outputs = ca.cse([ca.densify(RECORD.join(kept)), ca.densify(ca.vertcat(*forces)), scale])
     return ca.Function("observe", [packed, given, memory, nominal.symbols], outputs)
 
 
 def _learn(
-    told: Mapping[str, Any], thrust: Vector, unknown: Vector, period: float, L: float, weight: Scalar
+    sums: Mapping[str, Any], thrust: Vector, unknown: Vector, period: float, L: float, weight: Scalar
 ) -> tuple[Numbers, Scalar]:
-    """Return `TOLD` after a `period` (s) with these `thrust` and `unknown` (3,), N, and the scale; see `observer`."""
-    risen = told["risen"] + L * period * (1 - told["risen"])
-    weighed = (1 - period / MEAN) * told["weight"] + risen**2
+    """Return the sums after a `period` (s) with `thrust` and `unknown` force (3,), N, and the scale; see `observer`."""
+    risen = sums["risen"] + L * period * (1 - sums["risen"])
+    weighed = (1 - period / MEAN) * sums["weight"] + risen**2
     follow = risen / weighed
-    off, beside = thrust - risen * told["thrust"], unknown - risen * told["unknown"]
+    off, beside = thrust - risen * sums["thrust"], unknown - risen * sums["unknown"]
     square = ca.sumsqr(off)
     share = square / (square + (VARIES * weight) ** 2)
     kept = 1 - period / FORGETTING * share
     after = {
         "risen": risen, "weight": weighed,
-        "thrust": told["thrust"] + follow * off, "unknown": told["unknown"] + follow * beside,
-        "square": kept * told["square"] + share * square,
-        "product": kept * told["product"] + share * ca.dot(off, beside),
+        "thrust": sums["thrust"] + follow * off, "unknown": sums["unknown"] + follow * beside,
+        "square": kept * sums["square"] + share * square,
+        "product": kept * sums["product"] + share * ca.dot(off, beside),
     }  # fmt: skip
     scale = after["product"] / (after["square"] + DOUBT / period * weight**2)
-    return TOLD.join(after), clip(scale, -MOST, MOST)
+    return SCALE_SUMS.join(after), clip(scale, -MOST, MOST)

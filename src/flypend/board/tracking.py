@@ -53,7 +53,7 @@ ROD_BANDWIDTH = 100.0
 ROD_GAP = 0.1  # s without a direction, after which it begins anew
 
 
-class _Told:
+class _Arrival:
     """What was told at a step `since` (s) the last time, if its `age` is not negative; `before` is that time before."""
 
     def __init__(self, age: Scalar, before: Scalar, period: float, gap: float) -> None:
@@ -85,25 +85,25 @@ def track_pose(period: float, gravity: float) -> ca.Function:
     memory, position, attitude = ca.SX.sym("memory", POSE.length), ca.SX.sym("position", 3), ca.SX.sym("attitude", 9)
     age, gyro, force = ca.SX.sym("age"), ca.SX.sym("gyro", 3), ca.SX.sym("force", 3)
     before = POSE.split(memory)
-    told = _Told(age, before["since"], period, GAP)
+    arrival = _Arrival(age, before["since"], period, GAP)
     R = ca.reshape(before["R"], 3, 3).T @ rotation_by(period / 2 * (before["omega"] + gyro))
     a = R @ (force - period / 2 * cross(gyro, force)) - gravity * ca.DM(E3)  # the mean attitude of the period
     x = before["x"] + period * before["x_dot"] + period**2 / 2 * a
     x_dot = before["x_dot"] + period * a
 
     off = position - (x - age * x_dot + age**2 / 2 * a)
-    gain, rate_gain = told.gains(BANDWIDTH)
+    gain, rate_gain = arrival.gains(BANDWIDTH)
     seen = ca.reshape(attitude, 3, 3).T
     error = rotation_by(age * gyro) @ R.T @ seen  # (R exp(−age ω))ᵀ seen, by which it was turned too little
     turn = 4 * vee(error) / ca.fmax(1 + ca.trace(error), 1)  # twice the half tangent
-    share = 1 - 1 / (1 + TURN_BANDWIDTH * told.since)
+    share = 1 - 1 / (1 + TURN_BANDWIDTH * arrival.since)
     corrected = ca.if_else(ca.trace(error) < 1 + 2 * FAR, seen, R @ rotation_by(share * turn))
     after = POSE.join({
-        "x": told.chosen(x, x + gain * off, position),
-        "x_dot": told.chosen(x_dot, x_dot + rate_gain * off, ca.SX.zeros(3)),
-        "R": ca.vec(polar_step(told.chosen(R, corrected, seen)).T),  # rounding off the rotations
+        "x": arrival.chosen(x, x + gain * off, position),
+        "x_dot": arrival.chosen(x_dot, x_dot + rate_gain * off, ca.SX.zeros(3)),
+        "R": ca.vec(polar_step(arrival.chosen(R, corrected, seen)).T),  # rounding off the rotations
         "omega": gyro,
-        "since": told.after,
+        "since": arrival.after,
     })  # fmt: skip
     return ca.Function("track_pose", [memory, position, attitude, age, gyro, force], [ca.densify(after)])
 
@@ -114,22 +114,22 @@ def track_rod(period: float) -> ca.Function:
     The direction, world, is `age` seconds old, of any length; a negative age says that there is none. The specific
     force is that of the period that ends, world, m/s².
     """
-    memory, direction, age = ca.SX.sym("memory", ROD.length), ca.SX.sym("told", 3), ca.SX.sym("age")
+    memory, direction, age = ca.SX.sym("memory", ROD.length), ca.SX.sym("direction", 3), ca.SX.sym("age")
     force, length = ca.SX.sym("force", 3), ca.SX.sym("length")
     before = ROD.split(memory)
-    told = _Told(age, before["since"], period, ROD_GAP)
+    arrival = _Arrival(age, before["since"], period, ROD_GAP)
     turning = acceleration(before["y"], before["y_dot"], -tangent_part(before["y"], force) / length)
     y = unit(before["y"] + period * before["y_dot"] + period**2 / 2 * turning)
     y_dot = tangent_part(y, before["y_dot"] + period * turning)
 
     seen = direction / ca.sqrt(ca.fmax(ca.sumsqr(direction), 1e-12))
     off = tangent_part(y, seen - (y - age * y_dot + age**2 / 2 * turning))
-    gain, rate_gain = told.gains(ROD_BANDWIDTH)
+    gain, rate_gain = arrival.gains(ROD_BANDWIDTH)
     better = unit(y + gain * off)
     faster = tangent_part(better, y_dot + rate_gain * off)
     after = ROD.join({
-        "y": told.chosen(y, better, seen),
-        "y_dot": told.chosen(y_dot, faster, ca.SX.zeros(3)),
-        "since": told.after,
+        "y": arrival.chosen(y, better, seen),
+        "y_dot": arrival.chosen(y_dot, faster, ca.SX.zeros(3)),
+        "since": arrival.after,
     })  # fmt: skip
     return ca.Function("track_rod", [memory, direction, age, force, length], [ca.densify(after)])

@@ -94,8 +94,8 @@ def follow_strength(
     now["pq"] = ca.dot(modelled, lacking)
     sums = {name: (1 - share / TESTED) * past + share * now[name] for name, past in SUMS.split(trim["sums"]).items()}
     goes = 1 / (sums["ff"] + 1e-9 * vehicle.weight**2) * sums["fp"]  # with the thrust; there is none yet at first
-    told = sums["pp"] - ca.dot(goes, sums["fp"])
-    strength = (sums["pq"] - ca.dot(goes, sums["fq"])) / (told + DOUBTED * largest)
+    residual = sums["pp"] - ca.dot(goes, sums["fp"])
+    strength = (sums["pq"] - ca.dot(goes, sums["fq"])) / (residual + DOUBTED * largest)
     strength = clip(strength, -MOST_STRENGTH, MOST_STRENGTH)
     return RECORD.join(trim | {"strength": strength, "sums": SUMS.join(sums)})
 

@@ -116,8 +116,8 @@ class Task:
             parts = answer if isinstance(answer, tuple) else (answer,)
             shapes = [ca.SX(part).shape for part in parts if not isinstance(part, State)]
         except Exception as error:
-            told = f"one that fails: {explain(error)}"[:200]
-            raise InputError(f"task.{name}", "a function of symbols that returns numbers", told) from error
+            given = f"one that fails: {explain(error)}"[:200]
+            raise InputError(f"task.{name}", "a function of symbols that returns numbers", given) from error
         for shape in shapes:
             if shape[1] != 1 or rows not in (None, shape[0]):
                 wanted = "a number: sum what is more" if rows == 1 else f"columns of {rows or 'some'} numbers"

@@ -199,7 +199,7 @@ def _crazyflie(vehicle: Vehicle, rate: float, airframe: str | None) -> tuple[Veh
 def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
     """What the Crazyflie's templates take of the flight computer, with an estimator or without, or behind a plan."""
     units, record, latest = ["flypend_app", "flypend_law", "flypend_frames"], records.MEASUREMENT, LATEST
-    beside, told = "", dict.fromkeys(("tell_imu", "tell_pose", "tell_rod"), "")
+    beside, calls = "", dict.fromkeys(("tell_imu", "tell_pose", "tell_rod"), "")
     if made.sensing is not None:
         sensors = made.sensing.sensors
         history = History.of(sensors, 1 / rate)
@@ -209,7 +209,7 @@ def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
         beside = (
             f"- **How good they are**: the law's estimator reckons with {'; '.join(describe(sensors))} (SI units).\n"
         )
-        told = {
+        calls = {
             "tell_imu": "    tell_imu(sensors);\n",
             "tell_pose": "    tell_pose(position, turned, age);\n",
             "tell_rod": "    tell_rod(end->from_pivot, age);\n",
@@ -220,7 +220,7 @@ def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
             "- **That the rod hangs at rest**: then a swing-up follows a plan; else, or thrown off it, the law flies.\n"
         )
     parts = ["measured" if made.sensing is None else "sensed", *["planned"] * planned]
-    return told | {
+    return calls | {
         "computer": "".join(fill(f"crazyflie/{part}.c", {"period": literal(1 / rate, "float")}) for part in parts),
         "beside": beside,
         "flown": "planned" if planned else "computer",

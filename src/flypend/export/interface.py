@@ -174,10 +174,10 @@ def _sound(sensors: Sensors) -> ca.Function:
     """Readings → largest |length² − 1| of directions; largest ‖RᵀR − 1‖² of attitudes, at least 2 for a reflection."""
     record = readings_record(sensors)
     readings = ca.SX.sym("readings", record.length)
-    told = record.split(readings)
+    parts = record.split(readings)
     defects: list[list[Any]] = [[ca.SX(0.0)], [ca.SX(0.0)]]
     for name in sensors.streams:
-        values, fresh = told[name], told[f"{name}_age"] >= 0
+        values, fresh = parts[name], parts[f"{name}_age"] >= 0
         if name in ("rod", "joints"):
             defects[0].append(fresh * ca.fabs(ca.sumsqr(values) - 1))
         elif name == "attitude":

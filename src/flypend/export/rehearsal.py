@@ -32,9 +32,9 @@ class Tested(NamedTuple):
 
     def comment(self) -> str:
         """Return a C comment, in ASCII."""
-        told = [line for text in self.lines for line in textwrap.wrap(text, 114, subsequent_indent="  ")]
+        comments = [line for text in self.lines for line in textwrap.wrap(text, 114, subsequent_indent="  ")]
         verdict = textwrap.wrap(f"POOR: {self.poor}", 114) if self.poor else []
-        body = "\n".join(f" * {ascii_of(line)}" for line in [*verdict, *told])
+        body = "\n".join(f" * {ascii_of(line)}" for line in [*verdict, *comments])
         return f"/* Flown before it was exported, in flypend's own model:\n{body}\n */\n"
 
 

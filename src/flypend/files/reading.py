@@ -100,5 +100,5 @@ def free_memory() -> float:
 def check_fits(field: str, needed: float, what: str) -> None:
     """Raise InputError, which blames `field`, if `what` takes more than the free memory; `needed` is in bytes."""
     if needed > ALWAYS and needed > (free := free_memory()):
-        told = f"{what}, which need {needed / GIGABYTE:.3g} GB"
-        raise InputError(field, f"what fits the {free / GIGABYTE:.3g} GB of free memory", told)
+        given = f"{what}, which need {needed / GIGABYTE:.3g} GB"
+        raise InputError(field, f"what fits the {free / GIGABYTE:.3g} GB of free memory", given)

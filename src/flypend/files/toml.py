@@ -49,8 +49,8 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         before = error.object[: error.start]
         line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
-        told = f"byte 0x{error.object[error.start]:02x} (at line {line}, column {column})"
-        raise InputError(str(path), "a TOML file in UTF-8", told) from None
+        given = f"byte 0x{error.object[error.start]:02x} (at line {line}, column {column})"
+        raise InputError(str(path), "a TOML file in UTF-8", given) from None
     except ValueError as error:  # a name that no file can have
         raise InputError(str(path), "a TOML file", error) from None
     return parse_toml(str(path), text)

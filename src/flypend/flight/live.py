@@ -134,9 +134,9 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
     law, true = loop.symbolic, true_vehicle(loop)
     criterion = goal(law.e3)
     facts = _ideal(loop, exact) if isinstance(loop.plant, Ideal) else _sampled_facts(loop)
-    told = reasons(loop)
-    if runge_kutta.TOO_MANY in told:
-        told[runge_kutta.TOO_MANY] = "more integration steps than a page takes"
+    texts = reasons(loop)
+    if runge_kutta.TOO_MANY in texts:
+        texts[runge_kutta.TOO_MANY] = "more integration steps than a page takes"
     deflated = zlib.compress(web_module(loop, criterion, exact, lanes), 9, wbits=RAW)
     return {
         "code": base64.b64encode(deflated).decode("ascii"),
@@ -149,7 +149,7 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
         "lyapunov": lyapunov_function(loop.vehicle, law, loop.parameters) is not None,
         "words": {
             "hold": criterion.hold, "parts": list(PARTS), "missed": MISSED, "pose": POSE, "hangs": HANGS,
-            "status": np.asarray(STATUS).tolist(), "reasons": [told.get(code, "") for code in range(len(STATUS))],
+            "status": np.asarray(STATUS).tolist(), "reasons": [texts.get(code, "") for code in range(len(STATUS))],
             "touched": [[name, reason_of(loop.vehicle, i)] for i, name in enumerate(touchable(loop.vehicle))],
         },
     }  # fmt: skip

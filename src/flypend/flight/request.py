@@ -159,8 +159,8 @@ class Flight:
         errors.check_kind("gains", self.gains, Mapping)
         put("judge_period", errors.number("judge_period", self.judge_period, above=0, unit="s"))
         if (judged := self.duration / self.judge_period) > MOST_JUDGED:
-            told = f"{self.judge_period:g} s, which takes {judged:g}"
-            raise InputError("judge_period", f"at most {MOST_JUDGED:g} of them in a run", told)
+            given = f"{self.judge_period:g} s, which takes {judged:g}"
+            raise InputError("judge_period", f"at most {MOST_JUDGED:g} of them in a run", given)
         if self.judge_period > max(self.duration, SAMPLE_PERIOD):
             raise InputError("judge_period", f"at most the duration, {self.duration:g} s", f"{self.judge_period:g}")
         if self.seed is not None:
@@ -189,9 +189,9 @@ class Flight:
     def _check_together(self) -> None:
         spin = float(np.max(norm(self.starts.omega), initial=0.0))
         if spin > MOST_SPIN:
-            told = f"{spin:.4g} rad/s; is it in degrees?"
+            given = f"{spin:.4g} rad/s; is it in degrees?"
             raise InputError(
-                "start.omega", f"at most {MOST_SPIN:g} rad/s ({MOST_SPIN / (2 * np.pi):.0f} turns/s)", told
+                "start.omega", f"at most {MOST_SPIN:g} rad/s ({MOST_SPIN / (2 * np.pi):.0f} turns/s)", given
             )
         self._check_lift()
         self._check_memory()
@@ -213,10 +213,10 @@ class Flight:
         vehicle = self.vehicle
         most = len(vehicle.rotor_spins) * vehicle.rotor_limits[1]
         if self.plant.limits and most <= vehicle.weight:
-            told = f"{most:.4g} N from {len(vehicle.rotor_spins)} rotors"
+            given = f"{most:.4g} N from {len(vehicle.rotor_spins)} rotors"
             masses = f"mass {vehicle.mass:g} kg + bob_mass {vehicle.bob_mass:g} kg (not g)"
             wanted = f"rotors that lift it: more than its weight, {vehicle.weight:.4g} N with {masses}"
-            raise InputError("vehicle.rotor_limits", wanted, told)
+            raise InputError("vehicle.rotor_limits", wanted, given)
 
     def _check_memory(self) -> None:
         """Raise InputError if the results would not fit the memory."""
@@ -304,8 +304,8 @@ def check_batch(starts: State) -> None:
     """Raise InputError unless `starts` is a batch of states with one leading axis."""
     errors.check_kind("starts", starts, State)
     if len(starts.batch_shape) != 1:
-        told = f"a batch of shape {starts.batch_shape}" if starts.batch_shape else "a single state"
-        raise InputError("starts", "a State with one leading batch axis", told)
+        given = f"a batch of shape {starts.batch_shape}" if starts.batch_shape else "a single state"
+        raise InputError("starts", "a State with one leading batch axis", given)
 
 
 def check_judged(flight: Flight) -> None:

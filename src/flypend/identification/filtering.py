@@ -100,7 +100,7 @@ def run_filter(
     for k in range(count):
         if k % 500 == 0:
             signals.poll()
-        correction, seen, told, kept = nothing, there[k], None, eye
+        correction, seen, evidence, kept = nothing, there[k], None, eye
         if seen.any():
             z, H_all = programs.read(s, gusts, forces.now[k], grid.age[k], moving, reading)
             H_all, y = H_all.reshape(-1, 15).T, grid.values[k]
@@ -132,12 +132,12 @@ def run_filter(
                 information += J.T @ weighed
                 scores[k // per_segment] += e @ weighed
                 errors[k, rows], spreads[k, rows] = e, S.diagonal()
-                told = (H.T @ (S_inv @ e), H.T @ S_inv @ H)
+                evidence = (H.T @ (S_inv @ e), H.T @ S_inv @ H)
             kept = eye - K @ H
             P = P - K @ PHt.T
             D = D - K @ J
         if k + 1 == count:
-            back.add(told, kept)
+            back.add(evidence, kept)
             back.close()
             break
         s, gusts, by = programs.move(
@@ -152,7 +152,7 @@ def run_filter(
         across = np.eye(3) - s[18:21, None] * s[18:21]  # what was along the rod is gone: it is a unit vector
         for part in (slice(12, 15), slice(15, 18)):
             F[part], added[part] = across @ F[part], across @ added[part]
-        back.add(told, F @ kept)
+        back.add(evidence, F @ kept)
         if (k + 1) % per_block == 0:
             back.close()
         P = F @ P @ F.T
@@ -177,17 +177,17 @@ class _Backward:
         self.found, self.expected = np.zeros(LOCAL), np.zeros(LOCAL)
         self._steps: list[tuple[Any, Any]] = []
 
-    def add(self, told: tuple[Any, Any] | None, onward: Any) -> None:
+    def add(self, evidence: tuple[Any, Any] | None, onward: Any) -> None:
         """Keep a step: (Hᵀ S⁻¹ e, Hᵀ S⁻¹ H) of its readings, and F (1 − K H)."""
-        self._steps.append((told, onward))
+        self._steps.append((evidence, onward))
 
     def close(self) -> None:
         """Go back over the steps kept, and forget them."""
         r, N = np.zeros(LOCAL), np.zeros((LOCAL, LOCAL))
-        for told, onward in reversed(self._steps):
+        for evidence, onward in reversed(self._steps):
             r, N = onward.T @ r, onward.T @ N @ onward
-            if told is not None:
-                r, N = r + told[0], N + told[1]
+            if evidence is not None:
+                r, N = r + evidence[0], N + evidence[1]
             self.found += r**2
             self.expected += N.diagonal()
         self._steps = []

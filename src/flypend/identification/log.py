@@ -171,8 +171,8 @@ def _check_header(names: list[str], field: str, called: Mapping[str, str] = Mapp
         for name in group:
             if name not in names:
                 theirs = [called.get(one, one) for one in group]
-                told = f"a column {called.get(name, name)!r}, beside {', '.join(theirs)}"
-                raise InputError(f"{field}, row 1", told, "none")
+                wanted = f"a column {called.get(name, name)!r}, beside {', '.join(theirs)}"
+                raise InputError(f"{field}, row 1", wanted, "none")
     return rotors
 
 
@@ -187,8 +187,8 @@ def _numbers(row: list[str], names: list[str], number: int, field: str) -> list[
         except ValueError:
             value = np.inf
         if cell and not np.isfinite(value):
-            told = repr(cell[:40])
-            raise InputError(f"{field}, row {number}, column {name}", "a number, or an empty cell", told)
+            given = repr(cell[:40])
+            raise InputError(f"{field}, row {number}, column {name}", "a number, or an empty cell", given)
         found.append(value)
     return found
 
@@ -223,8 +223,8 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
         with np.errstate(over="ignore"):  # of a damaged bag
             length = np.linalg.norm(groups[name], axis=1)
         if np.any(wrong := np.abs(length - 1) > NEAR_UNIT):
-            told = f"length {length[np.argmax(wrong)]:.3g}"
-            raise InputError(f"{field}, row {_row(wrong)}, column {first}", "a vector of length 1", told)
+            given = f"length {length[np.argmax(wrong)]:.3g}"
+            raise InputError(f"{field}, row {_row(wrong)}, column {first}", "a vector of length 1", given)
         groups[name] = groups[name] / length[:, None]
     command = np.stack([_hold_last(columns[f"u{i + 1}"], f"{field}, column u{i + 1}") for i in range(rotors)], axis=-1)
     if np.any(low := (command < 0).any(axis=1)):

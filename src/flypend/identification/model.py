@@ -104,18 +104,18 @@ def reads(vehicle: Vehicle, marker: Vector) -> Callable[..., Any]:
     n = len(vehicle.rotor_spins)
     packed, gusts, forces, age = ca.SX.sym("s", SIZE), ca.SX.sym("g", GUST), ca.SX.sym("f", n), ca.SX.sym("a")
     moving, reading, error = ca.SX.sym("m", sizes(MOVING)), ca.SX.sym("r", sizes(READING)), ca.SX.sym("e", LOCAL)
-    made, told = machine(vehicle, moving), split(READING, reading)
+    made, parts = machine(vehicle, moving), split(READING, reading)
     s = State.symbolic(shift(packed, error[:ERROR]))
     wind = gusts + error[ERROR:] + ca.vertcat(made.wind, ca.SX(4, 1))
     wrench = ca.mtimes(made.mixing(), forces)
     rates = State.symbolic(rates_under(s.packed(), forces, wrench, wind, made, Plant(air=("rotor_drag",))))
-    since = age + told["latency"]
+    since = age + parts["latency"]
     R = s.R @ rotation_by(-since * s.omega)
     position = s.x - since * s.x_dot + since**2 / 2 * rates.x_dot + R @ ca.DM(marker)
-    seen = R @ rotation_by(told["misalignment"])
-    felt = specific_force(s, rates, made) + told["force_bias"]
+    seen = R @ rotation_by(parts["misalignment"])
+    felt = specific_force(s, rates, made) + parts["force_bias"]
     rod = s.y - since * s.y_dot + since**2 / 2 * rates.y_dot
-    gyro = s.omega + told["gyro_bias"]
+    gyro = s.omega + parts["gyro_bias"]
     at = ca.SX.sym("at", 3, 3)
     local = ca.vertcat(position, vee(at.T @ seen), gyro, felt, rod)
     now = ca.substitute([ca.vertcat(position, ca.vec(seen.T), gyro, felt, rod), seen], [error], [ZERO])

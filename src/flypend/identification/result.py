@@ -17,7 +17,7 @@ from flypend.plants.plant import Plant
 
 # Student's t with as many degrees of freedom as scores of segments, 30 in a minute, at 97.5 %.
 T_975 = 2.05
-TOLD = 0.5  # of the guess's standard deviation; a log that leaves more has told next to nothing
+LEARNED = 0.5  # of the guess's standard deviation; a log that leaves more has told next to nothing
 # Numbers that are known but for the mass, as no log tells masses and forces apart.
 WITH_MASS = ("bob_mass", "inertia", "scale", "rotor_drag")
 WHITE = 0.1  # autocorrelation beyond which prediction errors are called coloured
@@ -142,7 +142,7 @@ def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
     untold = tuple(
         FIELDS.get(name, name)
         for name, place in at.items()
-        if FIELDS.get(name, name) in bands and np.any(errors[place] > TOLD * search.spread[place])
+        if FIELDS.get(name, name) in bands and np.any(errors[place] > LEARNED * search.spread[place])
     )
     vehicle = _machine(guess, values, bands)
     plant = Plant(

@@ -60,7 +60,7 @@ def chapters_page() -> str:
     every, more = offer(), figures()
     settings = {_kind(step["setting"]): step["setting"] for step in [*every["story"], *more]}
     first = every["story"][0]["setting"]
-    every |= {"first": first, "told": True, "figures": more}
+    every |= {"first": first, "chapters": True, "figures": more}
     return _page(every, list(settings.values()), CHAPTERS, lambda *_: None)
 
 
@@ -83,9 +83,9 @@ def _kind(setting: dict[str, Any]) -> str:
 def _engine(setting: Setting) -> dict[str, Any]:
     """Return machine code, sliders, and the record of a flight without its columns."""
     flight, law = setting.flight, setting.law
-    told = SimpleNamespace(law=law.name, gains=setting.gains, vehicle=flight.vehicle)
+    flown = SimpleNamespace(law=law.name, gains=setting.gains, vehicle=flight.vehicle)
     record = {
-        **replay.names([told])[0], "law": law.name, "e3": law.e3, "direction": [1.0, 0.0, 0.0],
+        **replay.names([flown])[0], "law": law.name, "e3": law.e3, "direction": [1.0, 0.0, 0.0],
         "vehicle": replay.describe_machine(flight.vehicle), "hold": goal(law.e3).hold,
     }  # fmt: skip
     loop = live_loop(flight)
@@ -105,5 +105,5 @@ def _available(every: dict[str, Any], settings: Sequence[dict[str, Any]], engine
         "laws": list(dict.fromkeys(setting["law"]["name"] for setting in settings)),
         "plants": {name: every["plants"][name] for name in PLANTS}, "sensors": {"perfect": every["sensors"]["perfect"]},
         "first": first, "starts": every["starts"], "story": story, "experiments": papers, "alone": True,
-        "told": every.get("told", False), "figures": every.get("figures", []),
+        "chapters": every.get("chapters", False), "figures": every.get("figures", []),
     }  # fmt: skip

@@ -70,8 +70,8 @@ def _bounds_from(law: BoundLaw, start: State, assumes: tuple[str, ...]) -> Guara
     if law.reference is None or not stands(law.reference):
         falls, allowed, when = steepest(law)
         if not falls < allowed:  # (C)
-            told = f"condition (C): the reference falls at {falls:.3g} m/s² at {when:.3g} s, and may at {allowed:.3g}"
-            return Guarantee(covered=False, V=math.inf, reason=f"outside the theorem: {told}")
+            reason = f"condition (C): the reference falls at {falls:.3g} m/s² at {when:.3g} s, and may at {allowed:.3g}"
+            return Guarantee(covered=False, V=math.inf, reason=f"outside the theorem: {reason}")
         return Guarantee(covered=True, V=found["V"], assumes=(*assumes, MOVING))
     k, V, l = SimpleNamespace(**law.gains), found["V"], law.vehicle.l
     rod, bob = rod_step(k), bob_bounds(V, k, law.vehicle.g)

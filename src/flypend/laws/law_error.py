@@ -77,8 +77,8 @@ def wrench_of(answer: Any, function: Any, name: str) -> Wrench:
     found = getattr(answer, "wrench", answer)
     if isinstance(found, Wrench):
         return found
-    told = f"it returns {type(answer).__name__}, not a Wrench: return flypend.Wrench(thrust, moment)"
-    raise LawError(location(innermost(function)), name, told)
+    problem = f"it returns {type(answer).__name__}, not a Wrench: return flypend.Wrench(thrust, moment)"
+    raise LawError(location(innermost(function)), name, problem)
 
 
 def law_error(error: BaseException, function: Any, name: str) -> LawError:

@@ -329,8 +329,8 @@ def _why_not_symbolic(call: Located, gains: Mapping[str, Any]) -> str:
     if refused is not None:
         if failure is None:
             return ""  # uses CasADi functions that accept symbols only
-        told = refused if "SX" in failure.said or "an if on" in failure.said else failure
-        raise told from told.__cause__
+        cause = refused if "SX" in failure.said or "an if on" in failure.said else failure
+        raise cause from cause.__cause__
     if failure is not None:
         return f"{failure.said}, {failure.where}"
     check_finite(numbers, call, call.name)

@@ -26,8 +26,8 @@ def unlike(certificate: Any, vehicle: str | None = None) -> tuple[str, str]:
         make = {"almost_global": laws.almost_global, "almost_global_lag": laws.almost_global_lag}[certificate["law"]]
         usual = make().bind(machine).numbers
         own = [f"{name} {value:g}" for name, value in gains.items() if value != usual.get(name)]
-        told = f"{', '.join([make.__name__, *own])} on {machine.name}"
-        return differs(certificate, make(**gains).bind(machine)), told
+        label = f"{', '.join([make.__name__, *own])} on {machine.name}"
+        return differs(certificate, make(**gains).bind(machine)), label
     except (InputError, LookupError, TypeError, ValueError) as reason:
         return f"no law of flypend is in the file: {reason}", ""
 

@@ -141,8 +141,8 @@ class Learner:
         """The present policy."""
         return Policy(**self.weights)
 
-    def imitate(self, told: Callable[[Entry], Any] = lambda _: None) -> None:
-        """Imitate the tuned law; `told` is called after every round."""
+    def imitate(self, report: Callable[[Entry], Any] = lambda _: None) -> None:
+        """Imitate the tuned law; `report` is called after every round."""
         flights, training = self._parts[0], self.training
         imitation = Imitation(flights, self.weights, training.steps)
         for i in range(training.rounds):
@@ -150,10 +150,10 @@ class Learner:
             with threadpool_limits(1, "blas"):
                 begin = starts(training.course.vehicle, rng, flights.count)
                 imitation.round(self.weights, begin, rng, RATE * rate_share(i, training.rounds))
-            self._add(flights.judge()[0], 0, i + 1, told)
+            self._add(flights.judge()[0], 0, i + 1, report)
 
-    def descend(self, told: Callable[[Entry], Any] = lambda _: None) -> None:
-        """Make the next update by descent; `told` is called with every new point of the curve."""
+    def descend(self, report: Callable[[Entry], Any] = lambda _: None) -> None:
+        """Make the next update by descent; `report` is called with every new point of the curve."""
         training, i = self.training, self.done
         rng = np.random.default_rng([training.seed, 2, i])
         begin = np.split(self._starts(rng), PARTS)
@@ -168,7 +168,7 @@ class Learner:
         self.done = i + 1
         self._since += [part[0] for part in flown]
         if self.done % EVERY == 0 or self.done == training.updates:
-            self._add(Costs(*map(np.concatenate, zip(*self._since, strict=True))), 1, self.done, told)
+            self._add(Costs(*map(np.concatenate, zip(*self._since, strict=True))), 1, self.done, report)
             self._since = []
 
     def _enter(self, flights: Flights, rng: np.random.Generator) -> None:
@@ -192,11 +192,11 @@ class Learner:
             begin = dangerous(scouts, self.weights, starts(vehicle, rng, scouts.count), count // 2)
         return rng.permutation(np.concatenate([begin, starts(vehicle, rng, count - len(begin))]))
 
-    def _add(self, costs: Costs, phase: int, update: int, told: Callable[[Entry], Any]) -> None:
+    def _add(self, costs: Costs, phase: int, update: int, report: Callable[[Entry], Any]) -> None:
         """Add an entry of these `costs` to the curve, and tell it."""
         median, high = np.quantile(costs.distance, (0.5, 0.95))
         self.curve.append(Entry(phase, update, np.mean(costs.cost), np.mean(costs.stands), median, high))
-        told(self.curve[-1])
+        report(self.curve[-1])
 
     # Interruptions ----------------------------------------------------------------------------------------------------
 

@@ -80,9 +80,9 @@ class Guess(NamedTuple):
         return "\n".join(lines) + "\n"
 
     def _line(self, name: str, value: Any, table: str = "") -> str:
-        told = f"{name} = {json.dumps(value, ensure_ascii=False)}"
+        line = f"{name} = {json.dumps(value, ensure_ascii=False)}"
         source = self.sources.get(table + name)
-        return f"{told:38s} # {source}" if source else told
+        return f"{line:38s} # {source}" if source else line
 
 
 @cache
@@ -283,8 +283,8 @@ def quantity(field: str, value: Quantity | None, unit: str, low: float, high: fl
         return number
     others = [name for name, other in UNITS[unit].items() if factor == 1.0 and low <= number * other <= high]
     hint = f" ({'; '.join(f'in {name}? write {number:g}{name}' for name in others)})" if others else ""
-    told = f" ({why})" if why else ""
-    raise InputError(field, f"{low:.3g} to {high:.3g} {unit}{told}", f"{number:g} {unit}{hint}")
+    reason = f" ({why})" if why else ""
+    raise InputError(field, f"{low:.3g} to {high:.3g} {unit}{reason}", f"{number:g} {unit}{hint}")
 
 
 def _about(middle: Any, factor: float) -> Any:

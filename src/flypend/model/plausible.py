@@ -140,9 +140,9 @@ def _refusal(rule: Rule, ratio: float, vehicle: Any) -> InputError:
     hints = [
         f"in {unit}? write {_first(vehicle, name) * factor:.4g}" for _, name, unit, factor in units if name == field
     ]
-    told = f" ({'; '.join(hints)})" if hints else ""
+    hint = f" ({'; '.join(hints)})" if hints else ""
     expected = f"{rule.what} between {rule.low:g} and {rule.high:g} ({rule.because})"
-    return InputError(field, expected, f"{ratio:.3g} with {_first(vehicle, field):g}{told}")
+    return InputError(field, expected, f"{ratio:.3g} with {_first(vehicle, field):g}{hint}")
 
 
 def _meant(rule: Rule, vehicle: Any) -> Iterator[tuple[float, str, str, float]]:

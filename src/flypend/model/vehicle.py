@@ -154,8 +154,8 @@ class Vehicle:
     def _check_spin(self) -> None:
         inertia = self.rod_spin_inertia
         if inertia > 2 * self.rod_inertia * (1 + 1e-9):
-            told = f"{inertia:g} with rod_inertia {self.rod_inertia:g}"
-            raise InputError("rod_spin_inertia", "at most twice rod_inertia, as in every solid body", told)
+            given = f"{inertia:g} with rod_inertia {self.rod_inertia:g}"
+            raise InputError("rod_spin_inertia", "at most twice rod_inertia, as in every solid body", given)
         if self.rod_spin and not inertia:
             raise InputError("rod_spin_inertia", "a number > 0 for a rod that spins", "0")
 

@@ -126,15 +126,15 @@ def _opening(window: Opening) -> dict[str, Any]:
 def frame(text: str, height: int = 640) -> str:
     """Wrap the page `text` in a sandboxed iframe for notebooks, `height` CSS pixels high."""
     style = f"width:100%;height:{height}px;border:0"
-    told = 'title="Replay of a flight" sandbox="allow-scripts"'
-    return f'<iframe srcdoc="{html.escape(text)}" {told} style="{style}"></iframe>'
+    attributes = 'title="Replay of a flight" sandbox="allow-scripts"'
+    return f'<iframe srcdoc="{html.escape(text)}" {attributes} style="{style}"></iframe>'
 
 
 def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
     """Pack `run` for the page: metadata with its `verdict`, and base64 columns of at most `most` samples."""
     t, states = _sample(run, most)
-    told = dict(verdict)
-    excess, hold = told.pop("excess"), told.pop("hold")
+    outcome = dict(verdict)
+    excess, hold = outcome.pop("excess"), outcome.pop("hold")
     rotors = np.reshape(run.rotor_forces, (len(run.t), -1))
     columns = {
         "t": t,
@@ -158,7 +158,7 @@ def pack(run: Run, verdict: dict[str, Any], most: int = MOST) -> dict[str, Any]:
         "law": run.law,
         "e3": run.e3,
         "completed": run.outcome.status == "completed",
-        "verdict": told,
+        "verdict": outcome,
         "hold": hold,
         "direction": sketch.main_direction(states.in_frame(run.e3)).tolist(),
         "vehicle": describe_machine(vehicle),

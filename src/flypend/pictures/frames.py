@@ -68,9 +68,9 @@ def stage(run: Trajectory, times: Any, view: str, speed: float, size: tuple[int,
         _readout(head, times, states),
         _cursor(strip, times),
     ]
-    told = verdict(run)
-    words = told["words"].replace(", ", "\n")
-    style = {"color": STATES[told["state"]], "fontsize": 14, "ha": "center", "va": "center"}
+    outcome = verdict(run)
+    words = outcome["words"].replace(", ", "\n")
+    style = {"color": STATES[outcome["state"]], "fontsize": 14, "ha": "center", "va": "center"}
     box = {"facecolor": "white", "edgecolor": "none", "pad": 3.0}
     side = -0.6 if states.y[-1, 2] > 0 else 0.78  # away from the bob
     ending = scene.text(0, side * half[1], words, bbox=box, animated=True, **style)

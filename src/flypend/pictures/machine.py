@@ -79,11 +79,11 @@ def _reach(vehicle: Vehicle) -> float:
 def _sizes(vehicle: Vehicle, free: list[tuple[float, float]]) -> str:
     assert vehicle.body is not None
     arm = float(np.linalg.norm(vehicle.rotors_from_pivot[0]))
-    told = f"arm {100 * arm:.1f} cm, disc ⌀ {200 * vehicle.body.disc_radius:.1f} cm, rod {100 * vehicle.reach:.0f} cm"
+    sizes = f"arm {100 * arm:.1f} cm, disc ⌀ {200 * vehicle.body.disc_radius:.1f} cm, rod {100 * vehicle.reach:.0f} cm"
     if not free:
-        return f"{told}\nno gap for a level rod"
+        return f"{sizes}\nno gap for a level rod"
     widths = ", ".join(sorted({f"{np.degrees(high - low):.0f}°" for low, high in free}))
-    return f"{told}\ngaps for a level rod: {len(free)} of {widths}"
+    return f"{sizes}\ngaps for a level rod: {len(free)} of {widths}"
 
 
 def _from_the_side(axes: Any, vehicle: Vehicle, mount: str) -> None:

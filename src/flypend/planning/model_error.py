@@ -101,4 +101,4 @@ def _momenta_program(vehicle: Vehicle) -> Any:
     rates = ca.horzcat(
         of_thrust + of_moment + weight, of_thrust, of_moment, on_vehicle, on_bob, ca.vertcat(ca.SX(6, 3), one)
     )
-    return as_numpy(ca.Function("told", [state], [ca.densify(momenta), ca.densify(ca.vec(rates))]))
+    return as_numpy(ca.Function("momenta", [state], [ca.densify(momenta), ca.densify(ca.vec(rates))]))

@@ -220,11 +220,11 @@ def _still(end: State) -> bool:
     return not np.any(np.concatenate([end.x_dot, end.omega, end.y_dot, end.z[:2], end.y[:2]])) and bool(end.z[2] > 0)
 
 
-def _check_below(name: str, limit: float, values: Sequence[float], told: Callable[[float], str]) -> None:
-    """Raise InputError unless the limit `name` is above the `values` at start and target; `told` writes them."""
+def _check_below(name: str, limit: float, values: Sequence[float], write: Callable[[float], str]) -> None:
+    """Raise InputError unless the limit `name` is above the `values` at start and target; `write` writes them."""
     for value, where in zip(values, ("start", "target"), strict=True):
         if value >= limit:
-            raise InputError(name, f"more than the {told(value)} of the {where}", told(limit))
+            raise InputError(name, f"more than the {write(value)} of the {where}", write(limit))
 
 
 def _forces(rotors: Any, low: float, high: float, n: int) -> Any:

@@ -217,12 +217,12 @@ def through(window: Window, vehicle: Vehicle, route: Sequence[State], target: Ar
     radius, height, margin = body_of(vehicle)
     near = margin + clearance + INSET * vehicle.l
     if np.any(window.halves <= near):
-        told = f"{window.width:g} m by {window.height:g} m"
-        raise InputError("window", f"an opening of more than {2 * near:.3g} m, for rod and clearance", told)
+        given = f"{window.width:g} m by {window.height:g} m"
+        raise InputError("window", f"an opening of more than {2 * near:.3g} m, for rod and clearance", given)
     sides = [window.inside(end.x)[2] for end in (route[0], route[-1])]
     if sides[0] * sides[1] >= 0:
-        told = " and ".join(f"{side:+.3g} m" for side in sides)
-        raise InputError("window", "one between start and target", f"both on one side of the wall, {told} from it")
+        given = " and ".join(f"{side:+.3g} m" for side in sides)
+        raise InputError("window", "one between start and target", f"both on one side of the wall, {given} from it")
     neck = np.array([*(window.halves - near), window.depth / 2 + margin + NECK * vehicle.l])
     return _numbers(window, neck, np.array([vehicle.reach, radius, height]), route, target, Units.of(vehicle), "window")
 

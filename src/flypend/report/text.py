@@ -84,8 +84,8 @@ def summary_table(verdicts: Mapping[Column, Sequence[Verdict]], title: str = "Th
     first = next(iter(verdicts.values()))
     rows: list[list[Cell]] = [["law", "start", *(verdict.claim for verdict in first)]]
     for key, row in verdicts.items():
-        told = ((number(v.value), *(("✓", "green") if v.holds else ("✗", "red"))) for v in row)
-        rows.append([*key, *(Text(f"{value} {sign}", colour) for value, sign, colour in told)])
+        cells = ((number(v.value), *(("✓", "green") if v.holds else ("✗", "red"))) for v in row)
+        rows.append([*key, *(Text(f"{value} {sign}", colour) for value, sign, colour in cells)])
     meaning = "; ".join(f"{v.claim}: {_generic(v.measured)} {v.criterion}" for v in first)
     caption = f"{meaning}. A claim fails as well on a run that does not reach its end."
     return terminal_table(rows, title, caption, left=2, whole=True, space=0)  # 80 columns

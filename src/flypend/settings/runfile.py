@@ -92,8 +92,8 @@ def _read(what: str) -> dict[str, Any]:
             raise InputError(what, "a run file (.toml)", f"a saved run: flypend replay {what}")
         settings = read_toml(what)
         if study := sorted(settings.keys() & STUDY_KEYS):
-            told = f"a study (it has {study[0]}): flypend sweep {what} -o {Path(what).stem}.zarr"
-            raise InputError(what, "a run file", told)
+            given = f"a study (it has {study[0]}): flypend sweep {what} -o {Path(what).stem}.zarr"
+            raise InputError(what, "a run file", given)
         if "law" in settings:
             settings["law"] = absolute(settings["law"], Path(what).parent)
         return settings

@@ -112,31 +112,31 @@ def watch() -> None:
     """
     if os.name != "posix":  # elsewhere signals can only be written to sockets
         return
-    heard, told = os.pipe()
-    os.set_blocking(told, False)
-    signal.set_wakeup_fd(told, warn_on_full_buffer=False)
-    Thread(target=_watch, args=(heard,), name="flypend-signals", daemon=True).start()
+    read_end, write_end = os.pipe()
+    os.set_blocking(write_end, False)
+    signal.set_wakeup_fd(write_end, warn_on_full_buffer=False)
+    Thread(target=_watch, args=(read_end,), name="flypend-signals", daemon=True).start()
 
 
-def _watch(heard: int) -> None:
-    number = _next(heard, None)
+def _watch(read_end: int) -> None:
+    number = _next(read_end, None)
     assert number is not None
     if not _polled:
         _set(number)
     begun, worked = time.monotonic(), time.process_time()
-    while _next(heard, ECHO) is not None:
+    while _next(read_end, ECHO) is not None:
         pass
-    while _next(heard, PERIOD) is None:
+    while _next(read_end, PERIOD) is None:
         late = time.process_time() - worked > GRACE or time.monotonic() - begun > PATIENCE
         if late and not _polled:
             break
     end(number)
 
 
-def _next(heard: int, timeout: float | None) -> int | None:
+def _next(read_end: int, timeout: float | None) -> int | None:
     """Return the number of the next signal to end; None if there is none for `timeout` seconds."""
-    while select.select([heard], [], [], timeout)[0]:
-        number = os.read(heard, 1)[0]
+    while select.select([read_end], [], [], timeout)[0]:
+        number = os.read(read_end, 1)[0]
         if number in NUMBERS and signal.getsignal(number) is not signal.SIG_IGN:
             return number
     return None

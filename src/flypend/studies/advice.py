@@ -69,8 +69,8 @@ class Advice:
         if self.law:
             return [f"best: {self.law}. {self.why}"]
         if self.as_written:
-            told = f"{', '.join(self.as_written)} will do for the vehicle as written"
-            return [f"none of these laws will do within the bands. {self.why}", f"narrow them by a longer log: {told}"]
+            laws = f"{', '.join(self.as_written)} will do for the vehicle as written"
+            return [f"none of these laws will do within the bands. {self.why}", f"narrow them by a longer log: {laws}"]
         good = [f"  {one.describe()}" for one in self.changes if one.works]
         best = max(self.changes, key=lambda one: one.successes, default=None)
         if good:
@@ -156,16 +156,16 @@ def change(vehicle: Vehicle, factors: Mapping[str, float]) -> Vehicle:
 def _fly(vehicle: Vehicle, factors: Mapping[str, float], plant: Sampled, seed: int) -> Change:
     """Fly the inverted law on the `vehicle` changed by `factors`, from random starts."""
     new = change(vehicle, factors)
-    told = ", ".join(f"{CHANGES[name][1]} (× {factor:g}, {_number(new, name)})" for name, factor in factors.items())
+    words = ", ".join(f"{CHANGES[name][1]} (× {factor:g}, {_number(new, name)})" for name, factor in factors.items())
     if feasibility(plant.true_vehicle(new), plant.delay).impossible:
-        return Change(dict(factors), told, 0, RUNS)
+        return Change(dict(factors), words, 0, RUNS)
     try:
         law = bound_to(new, inverted())
     except InputError:  # the law refuses such a vehicle
-        return Change(dict(factors), told, 0, RUNS)
+        return Change(dict(factors), words, 0, RUNS)
     starts = task_starts(new, RUNS, seed)["random"]
     flight = Flight(vehicle=new, law=law, starts=starts.in_frame(law.e3), duration=DURATION, plant=plant)
-    return Change(dict(factors), told, int(fly_many(flight).success.sum()), RUNS)
+    return Change(dict(factors), words, int(fly_many(flight).success.sum()), RUNS)
 
 
 def _number(vehicle: Vehicle, name: str) -> str:

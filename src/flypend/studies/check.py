@@ -115,9 +115,9 @@ class Check:
     def verdict(self, law: str = "") -> str:
         """Return in a line whether the law, here called `law`, can fly the vehicle, and the grade of each task."""
         machine, can = f"{self.vehicle.name} on a {self.vehicle.mount}", "can" if self.ok else "cannot"
-        told = f"{machine} {can} be flown by {law or self.law}"
+        sentence = f"{machine} {can} be flown by {law or self.law}"
         graded = [f"{name} {found}" for name, found in self.envelope.items() if name != "hover"]
-        return f"{told}: {', '.join(graded)}." if self.ok and graded else f"{told}."
+        return f"{sentence}: {', '.join(graded)}." if self.ok and graded else f"{sentence}."
 
     def __repr__(self) -> str:
         """Return verdict, tasks and margins, a line each."""
@@ -246,8 +246,8 @@ def check(
     if (reasons or shortfalls) and world.limits:
         about["plans"] = plan_some(world.true_vehicle(vehicle), starts["random"], workers, progress)
     trembles = too_noisy(bound, world) if isinstance(bound, BoundLaw) else ""
-    told = (*shortfalls, *[trembles] * bool(trembles), *found.doubtful)
-    return Check(**about, reasons=(*reasons, *told)) if reasons else Check(**about, warnings=told)
+    notes = (*shortfalls, *[trembles] * bool(trembles), *found.doubtful)
+    return Check(**about, reasons=(*reasons, *notes)) if reasons else Check(**about, warnings=notes)
 
 
 def plan_some(vehicle: Vehicle, starts: State, workers: int | None, progress: Progress) -> PlanEnsemble | None:
@@ -292,9 +292,10 @@ def caught(leans: Ensemble, directions: int) -> Catch:
 
 def _shortfalls(tasks: Mapping[str, Ensemble]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Why hover fails, and in which other tasks fewer than 90 % succeed; each empty if there is nothing to report."""
-    told = {}
+    lines = {}
     for name, ensemble in tasks.items():
         if ensemble.rate < {"hover": 1.0, "lean": 0.0}.get(name, LEAST_RATE):
             causes = ", ".join(f"{cause} {count}" for cause, count in summary(ensemble)["causes"].items())
-            told[name] = f"{name}: {int(ensemble.success.sum())} of {len(ensemble)} succeed ({causes})"
-    return tuple(told[name] for name in told if name == "hover"), tuple(told[name] for name in told if name != "hover")
+            lines[name] = f"{name}: {int(ensemble.success.sum())} of {len(ensemble)} succeed ({causes})"
+    hover = lines.pop("hover", None)
+    return (() if hover is None else (hover,)), tuple(lines.values())

@@ -87,8 +87,8 @@ class Joint:
         assert self.kept is not None
         sizes = ", ".join(f"{one.name} {one.size}" for one in self.causes if one.name in self.calibrated)
         kept = self.kept.describe()
-        told = f"to × {self.share:g} of {sizes}: {kept}" if self.share else f"{sizes}: {kept} if right"
-        return [*out, f"calibrate {told}"]
+        change = f"to × {self.share:g} of {sizes}: {kept}" if self.share else f"{sizes}: {kept} if right"
+        return [*out, f"calibrate {change}"]
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and dicts."""
@@ -151,8 +151,8 @@ class Errors:
             return f"{np.round(value, 4).tolist()}"
         value = scale * np.asarray({**self._of_plant, **self._defects}[name])
         unit = CONSTANT[name][2] if name in CONSTANT else NUMBERS[name][1] if name in NUMBERS else ""
-        told = f"{float(value):.3g}" if value.ndim == 0 else f"{np.round(value, 6).tolist()}"
-        return f"{told} {'m' if name == 'centre_of_mass' else unit}".strip()
+        text = f"{float(value):.3g}" if value.ndim == 0 else f"{np.round(value, 6).tolist()}"
+        return f"{text} {'m' if name == 'centre_of_mass' else unit}".strip()
 
     def world(self, scales: Mapping[str, float]) -> Sampled:
         """Return the plant with the errors of `scales` by name, each so many times its size."""

@@ -100,8 +100,8 @@ def strays(
     plans = plan_ensemble(vehicle, starts, guesses=guesses, workers=workers, progress=partial(tell, "planning"))
     by_law = {}
     for law in laws:
-        own, told = starts.in_frame(law.e3), partial(tell, f"flights of {law.name}")
-        flown = simulate_ensemble(vehicle, law, own, DURATION, plant="rotors", workers=workers, progress=told)
+        own, report = starts.in_frame(law.e3), partial(tell, f"flights of {law.name}")
+        flown = simulate_ensemble(vehicle, law, own, DURATION, plant="rotors", workers=workers, progress=report)
         by_law[flown.law] = np.where(flown.success, flown.excursion, np.nan)
     return Strays(count, place, starts, by_law, plans)
 

@@ -58,7 +58,7 @@ export class Laboratory {
     if (asked() !== null) this.kiosk = new Kiosk(this, { quiet: asked() });
     if (this.setting.unreadable) this.#notice("The address holds no setting that can be read. This is the usual start.");
     if (figure) this.#watched();
-    else if (this.offer.told && !location.hash) this.story.go(0);
+    else if (this.offer.chapters && !location.hash) this.story.go(0);
     else this.changed();
   }
 

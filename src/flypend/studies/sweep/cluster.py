@@ -59,8 +59,8 @@ def fly_chunks(
                     futures[following] = number
                     coming.add(following)
             except (CancelledError, OSError, distributed.KilledWorker) as error:
-                told = str(error).rpartition("reason: ")[2].split(". ")[0] or type(error).__name__
-                raise InputError("scheduler", STAYS, told) from None
+                reason = str(error).rpartition("reason: ")[2].split(". ")[0] or type(error).__name__
+                raise InputError("scheduler", STAYS, reason) from None
 
 
 def _result(future: Any, client: Any) -> dict[str, Any]:
@@ -97,8 +97,8 @@ def _client(scheduler: str) -> Iterator[Any]:
         try:
             client = make(scheduler, timeout=CONNECT)
         except (OSError, ValueError, TimeoutError) as error:
-            told = f"{scheduler} ({error})"
-            raise InputError("scheduler", "the address of a Dask scheduler that answers", told) from None
+            reason = f"{scheduler} ({error})"
+            raise InputError("scheduler", "the address of a Dask scheduler that answers", reason) from None
         logger = logging.getLogger("distributed.client")
         level = logger.level
         logger.setLevel(logging.CRITICAL)  # of a lost scheduler it writes pages, of which one line is told

@@ -120,8 +120,8 @@ def _fly_here(
         except BrokenProcessPool as error:
             deaths += 1
             if deaths == DEATHS:
-                told = str(error).split(". ")[0]
-                raise errors.InputError("processes", "worker processes that survive (rerun to resume)", told) from None
+                given = str(error).split(". ")[0]
+                raise errors.InputError("processes", "worker processes that survive (rerun to resume)", given) from None
 
 
 def _fly_numbers(

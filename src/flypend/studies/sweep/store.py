@@ -153,8 +153,8 @@ class Store:
             array = _array_in(self.path, self._group, name)
             if array is None or not layout.alike(array, wanted):
                 if not writable:
-                    told = f"the metadata of {name} as they were written (flypend sweep restores them)"
-                    raise InputError(str(self.path), told, "none" if array is None else "others")
+                    wanted = f"the metadata of {name} as they were written (flypend sweep restores them)"
+                    raise InputError(str(self.path), wanted, "none" if array is None else "others")
                 _restore(self.path / name / METADATA, files[f"{name}/{METADATA}"].to_bytes())
                 array = self._group[name]
             found[name] = array

@@ -214,7 +214,7 @@ def main():
 
     cflib.crtp.init_drivers()
     own = {f"flypend.{name}": getattr(given, name) for name in ("mass", "bobMass", "rodLength")}
-    told = {name: value for name, value in own.items() if value is not None}
+    settings = {name: value for name, value in own.items() if value is not None}
     shown = termios.tcgetattr(sys.stdin)
     tty.setcbreak(sys.stdin)
     try:
@@ -225,7 +225,7 @@ def main():
             log.data_received_cb.add_callback(lambda _, values, __: print(values))
             link.cf.log.add_config(log)
             log.start()
-            Session(link.cf, Bodies(), Keys(sys.stdin.fileno())).fly(given.hover, told)
+            Session(link.cf, Bodies(), Keys(sys.stdin.fileno())).fly(given.hover, settings)
     except RefusedError as error:
         sys.exit(str(error))
     finally:

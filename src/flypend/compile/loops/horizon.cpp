@@ -1,5 +1,6 @@
 // A program at every stage of a horizon: of one problem per lane or, ABREAST, of W stages of one problem at a time.
 #include "horizon.hpp"
+#include "transpose.hpp"
 
 extern "C" {
 extern const int64_t INPUTS, ABREAST;
@@ -9,21 +10,6 @@ void stage(T *const *arrays);   // arrays of vectors
 }
 
 #if WIDTH == 8
-// Swap blocks of S × S beside the diagonal.
-template <int S> static INLINE void swap_blocks(V *block) {
-#define LOW(k) ((k) & S ? W + (k) - S : (k))
-#define HIGH(k) ((k) & S ? W + (k) : (k) + S)
-    UNROLLED for (int64_t i = 0; i < W; i++) {
-        if (i & S) continue;
-        const V a = block[i], b = block[i + S];
-        block[i] = __builtin_shufflevector(a, b, LOW(0), LOW(1), LOW(2), LOW(3), LOW(4), LOW(5), LOW(6), LOW(7));
-        block[i + S] = __builtin_shufflevector(
-            a, b, HIGH(0), HIGH(1), HIGH(2), HIGH(3), HIGH(4), HIGH(5), HIGH(6), HIGH(7));
-    }
-}
-
-static INLINE void transpose(V *block) { swap_blocks<1>(block), swap_blocks<2>(block), swap_blocks<4>(block); }
-
 // Rows of W stages to vectors, and back.
 static INLINE void spread(const T *rows, V *vectors, int64_t length) {
     const int64_t whole = length - length % W;

@@ -28,13 +28,6 @@ static INLINE V first_step(const Stages &stages, V rtol, V atol) {
     return most(least(step, all(FIRST_MOST)), all(FIRST_LEAST));
 }
 
-// Whether a rate of stage 0 is infinite or NaN.
-static INLINE M undefined_rate(const Stages &stages) {
-    V sum{};
-    for (int64_t i = 0; i < N; i++) sum += 0 * stages.K[i];
-    return ~(sum == 0);
-}
-
 // Ratio of the next step to this one: SAFETY times the ratio that would just meet the tolerance.
 static INLINE V growth(V error) {
     V factor = SAFETY * power(most(error, all(T(1e-12))), T(-1 / ORDER));
@@ -191,7 +184,7 @@ extern "C" void kernel(
         how = (accepted & (t >= until)) ? all(COMPLETED) : how;
         how = touched ? all(COLLIDED) : how;
         M at_start = t <= begin;
-        if (any(at_start)) how = (at_start & undefined_rate(stages)) ? all(UNDEFINED) : how;
+        if (any(at_start)) how = (at_start & undefined(stages.k(0), N)) ? all(UNDEFINED) : how;
         how = low ? all(SINGULAR) : how;  // the guard says why, also where a rate is not finite
         M over = active & (how >= 0);
         if (any(over)) {

@@ -2,31 +2,10 @@
 #pragma once
 
 #include "dense.hpp"
+#include "transpose.hpp"
 
-// Lanes × components are transposed in registers, in blocks of 8 × 8.
 typedef T Lanes8 __attribute__((vector_size(8 * sizeof(T))));
-typedef double Row8 __attribute__((vector_size(8 * sizeof(double))));
 typedef double Stored8 __attribute__((vector_size(8 * sizeof(double)), aligned(sizeof(double))));
-
-// Swap off-diagonal blocks of size one, two and four.
-static INLINE void transpose(Row8 *row) {
-    UNROLLED for (int64_t i = 0; i < 8; i += 2) {
-        Row8 a = row[i], b = row[i + 1];
-        row[i] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-        row[i + 1] = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    }
-    UNROLLED for (int64_t j = 0; j < 4; j++) {
-        int64_t i = j + 2 * (j / 2);
-        Row8 a = row[i], b = row[i + 2];
-        row[i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-        row[i + 2] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-    }
-    UNROLLED for (int64_t i = 0; i < 4; i++) {
-        Row8 a = row[i], b = row[i + 4];
-        row[i] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
-        row[i + 4] = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
-    }
-}
 
 // `length` vectors become one row of `length` doubles per lane.
 static INLINE void turn(V *vectors, double *rows, int64_t length) {

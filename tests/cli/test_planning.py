@@ -1,6 +1,6 @@
 """The command plan: what it prints and writes, from a run file and without one."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -39,10 +39,13 @@ def test_the_rod_is_let_down_and_tabled(tmp_path, capsys):
         cli.app(["plan", *out, "--end", "hangin"], standalone_mode=False)
 
 
-def test_a_cube_is_about_the_target():
+def test_a_cube_is_about_the_target_or_the_end_of_a_path(tmp_path):
     asked = Kept(**{field.name: None for field in fields(Kept)} | {"cube": 0.6, "window": (), "waypoints": ()})
-    box = asked.about((1.0, 0.0, -2.0), {}).box
+    box = asked.constraints(fp.State(x=(1.0, 0.0, -2.0), y=(0, 0, 1)), None, {}).box
     np.testing.assert_allclose(box, [(0.7, -0.3, -2.3), (1.3, 0.3, -1.7)])
+    path = replace(asked, path=f"{tmp_path / 'way.py'}:line")
+    (tmp_path / "way.py").write_text("def line(t):\n    return [t, 0 * t, 2.0]\n")
+    np.testing.assert_allclose(path.constraints(None, 3.0, {}).box, [(2.7, -0.3, 1.7), (3.3, 0.3, 2.3)])
 
 
 def test_a_run_file_gives_vehicle_and_start(tmp_path, capsys):
@@ -94,6 +97,10 @@ def test_what_is_ones_own_is_kept_and_costs(tmp_path, capsys):
         (["--objective", "cost"], "cost: expected the cost that is the objective"),
         (["--clearance", "-1"], "clearance: expected a finite number >= 0 m"),
         (["--end", "no.toml"], "no.toml: expected a readable TOML file"),
+        (["--end", "hanging", "--front", "front.png"], "--front: expected nothing beside --end hanging"),
+        (["--path", "way.py:line", "--front", "front.png"], "--front: expected nothing beside --path"),
+        (["--end", "hanging", "--fly", "rotors"], "--fly: expected nothing beside --end hanging"),
+        (["--end", "hanging", "--c", "table"], "--c: expected nothing beside --end hanging"),
     ],
 )
 def test_wrong_options_end_in_a_line(options, line, call):

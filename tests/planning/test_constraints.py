@@ -173,6 +173,7 @@ def test_the_same_constraint_written_again_has_the_same_programs():
     "keep",
     [
         3, lambda: 1, lambda m: m.z, lambda m: [], lambda m: "high", lambda m: ca.SX.sym("a"), lambda m: None,
+        lambda m: m.x[2] > -1, lambda m: [m.y[2] + 1, ca.logic_and(m.x[0] < 1, m.x[0] > -1)],
         lambda m: m.x[2], lambda m: m.x[2] - 1, lambda m: m.y[2] - 1, lambda m: np.nan, lambda m: m.rotor_forces - 1.0,
     ],
 )  # fmt: skip

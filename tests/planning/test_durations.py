@@ -33,6 +33,21 @@ def test_the_least_time_does_not_exceed_the_time_allowed():
     assert not fp.plan(HEHN, HANGING, "time", duration=0.5)
 
 
+@pytest.mark.parametrize("allowed", [1.0, 1.1])
+def test_the_least_time_is_found_where_little_more_is_allowed(allowed):
+    plan = fp.plan(HEHN, HANGING, "time", duration=allowed)
+    assert plan
+    assert plan.duration < 1.0
+
+
+def test_a_start_that_hovers_has_a_shortest_plan():
+    """It ended where floats do, with states that are no numbers."""
+    plan = fp.plan(HEHN, fp.State(x=(0.004, 0, 0), y=E3), "time", rotors=np.full(4, HEHN.weight / 4))
+    assert plan
+    assert 0 < plan.duration < 0.05
+    assert np.all(np.isfinite(plan.packed))
+
+
 def test_a_search_for_the_least_time_that_is_stopped_says_so():
     plan = fp.plan(HEHN, HANGING, "time", time_limit=0.3)
     assert plan.status == "feasible"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -40,6 +42,26 @@ def test_a_plan_that_ends_otherwise_is_not_tracked(landing, tmp_path):
     assert np.array_equal(same.packed, landing.packed)
     with pytest.raises(fp.InputError, match="inverted hover"):
         fp.track(same)
+
+
+@pytest.mark.parametrize(
+    ("place", "values"),
+    [(0, [0.1]), (6, [1, 0, 0, 0, -1, 0, 0, 0, -1]), (16, [8.0]), (18, [np.sin(0.1), 0, np.cos(0.1)]), (21, [0.4])],
+)
+def test_what_is_not_quite_hover_is_not_tracked_or_tabled(hovering, place, values, tmp_path):
+    """Half a turn, a spin, a lean: none was told from hover, and the flight behind it failed."""
+    packed = hovering.packed.copy()
+    packed[-1, place : place + len(values)] = values
+    other = replace(hovering, packed=packed)
+    for use in (fp.track, lambda plan: fp.export_plan(plan, tmp_path / "table")):
+        with pytest.raises(fp.InputError, match="plan: expected one that ends in inverted hover"):
+            use(other)
+    assert fp.track(hovering)
+
+
+@pytest.fixture(scope="module")
+def hovering():
+    return fp.plan(HEHN, HANGING)
 
 
 def test_a_plan_ends_in_motion():

@@ -85,6 +85,7 @@ def test_ensembles_follow_paths_too(circle):
     [
         ({"path": twice_around}, "duration: expected the time that the path takes, s, got nothing"),
         ({"path": twice_around, "duration": 4, "target": (0, 0, 0)}, "target: expected nothing beside a path"),
+        ({"path": twice_around, "duration": 4, "objective": "time"}, "objective: expected another beside a path"),
         ({"path": (1, 2, 3), "duration": 4}, "a function of time that gives a position"),
     ],
 )

@@ -298,6 +298,9 @@ def test_bad_wishes_are_refused(wish, line):
 
 
 def test_a_vehicle_that_cannot_lift_itself_is_refused():
+    aside = HEHN.replace(rotor_positions=np.add(HEHN.rotor_positions, (0.05, 0, 0)))
+    with pytest.raises(fp.InputError, match="rotor_positions: expected rotors that share thrust and yaw equally"):
+        fp.plan(aside, HANGING)
     with pytest.raises(fp.InputError, match=r"vehicle: expected rotors that lift 5\.4 N"):
         plan_of(HEHN.replace(rotor_limits=[0.0, 1.3]), HANGING)
     with pytest.raises(fp.InputError, match="gravity > 0"):

@@ -339,6 +339,13 @@ def test_a_window_counts_until_the_pivot_is_through():
     assert receding.kept(np.array([0.4, 0, 0]), np.zeros(3)).given == {"floor": -2.0}
 
 
+def test_hover_in_a_wall_is_refused():
+    window = fp.Window((0, 2, 0.25), 0.3, 0.3)
+    with pytest.raises(fp.InputError, match=r"^window: expected a wall that hover at the reference is clear of"):
+        fp.nmpc(HEHN, window=window)
+    fp.nmpc(HEHN, window=replace(window, centre=(1.0, 2, 0.25)))
+
+
 def test_beside_a_moving_reference_only_lean_and_clearance_mean_something():
     circle = fp.laws.references.circle()
     assert fp.nmpc(reference=circle, lean=1.0, clearance=0.02).flight_computer.constraints.lean == 1.0

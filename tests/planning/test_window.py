@@ -101,6 +101,14 @@ def test_two_windows_and_a_hub():
     assert np.min(plan.trajectory.clearance) > 0
 
 
+def test_what_comes_nearer_than_the_clearance_says_so():
+    """A cost grows for it, which the least time pays."""
+    plan = fp.plan(HEHN.replace(mount="hub"), fp.State(y=(0, 0, -1)), "time", clearance=0.05)
+    assert plan.status == "feasible"
+    assert np.min(plan.trajectory.clearance) < 0.04
+    assert "the clearance is" in plan.reason
+
+
 def test_room_agrees_with_points_all_over_the_machine(through_the_door):
     """Where it is least; polygons about the discs are 0.5 mm too large, and points are up to 5 mm from each other."""
     room, brute = DOOR.room(through_the_door.states, HEHN), brute_room(DOOR, through_the_door.states, HEHN)

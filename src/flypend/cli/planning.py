@@ -61,6 +61,11 @@ class Kept:
         'Term whose square adds to the cost, such as "x_dot[0]"; or file.py:function.', metavar="EXPR"
     )
 
+    def refuse_other_end(self, *options: str) -> None:
+        """Raise InputError for the first of `options` that was given if the flight is not to one place, inverted."""
+        if self.path is not None or self.end != "inverted":
+            refuse_idle(*options, why=f"beside {'--path' if self.path else f'--end {self.end}'}")
+
     def state(self, target: ArrayLike) -> fp.State | None:
         """Return the state in which it ends at the `target`, m; None for the end of a path."""
         if self.path is not None:
@@ -72,20 +77,26 @@ class Kept:
         up = one_of("--end", self.end, ("inverted", "hanging")) == "inverted"
         return fp.State(x=array("target", target, (3,)), y=(0.0, 0.0, 1.0 if up else -1.0))
 
-    def about(self, target: ArrayLike, given: Mapping[str, Any]) -> fp.Constraints:
-        """Return the constraints of a flight to the `target`, m: those `given`, but for what the options say."""
+    def constraints(self, target: fp.State | None, duration: float | None, given: Mapping[str, Any]) -> fp.Constraints:
+        """Return the constraints of a flight to the `target`, or along a path, that takes the `duration`, s.
+
+        They are those `given`, but for what the options say.
+        """
         import numpy as np
 
+        from flypend.planning.problem import end_of
         from flypend.settings.laws import own_from
 
-        half = None if self.cube is None else number("--cube", self.cube, above=0, unit="m") / 2
+        path, box = None if self.path is None else own_from(self.path, None, "path", "--path"), None
+        if self.cube is not None:
+            half = number("--cube", self.cube, above=0, unit="m") / 2
+            box = np.add(((-half,) * 3, (half,) * 3), end_of(path, duration, None) if target is None else target.x)
         own = {
             "floor": self.floor, "ceiling": self.ceiling, "speed": self.speed, "clearance": self.clearance,
-            "box": None if half is None else np.add(((-half,) * 3, (half,) * 3), target),
+            "box": box, "path": path,
             "lean": None if self.lean is None else np.radians(self.lean),
             "window": [fp.Window(place[:3], *place[3:]) for place in self.window] or None,
             "waypoints": self.waypoints or None,
-            "path": None if self.path is None else own_from(self.path, None, "path", "--path"),
             "keep": None if self.keep is None else own_from(self.keep, None, "keep", "--keep"),
             "cost": None if self.cost is None else own_from(self.cost, None, "cost", "--cost"),
         }  # fmt: skip
@@ -139,12 +150,14 @@ def plan(
         refuse_idle("vehicle", why=f"beside {what}, which names its own")
     if also.fly is not None:
         plant(one_of("--fly", also.fly, ("rotors", "mujoco")))
+    keep.refuse_other_end("front", *["fly", "in_c"] * (keep.end == "hanging"))
     machine, start, asked = _from(what, vehicle)
     given = {"objective": "excursion", "target": (0.0, 0.0, 0.0), **asked}
     given |= {name: value for name, value in {"objective": objective, "target": target}.items() if value is not None}
     aim, place = given.pop("objective"), given.pop("target")
-    kept = keep.about(place, given)
-    found = fp.plan(machine, start, aim, duration=duration, target=keep.state(place), constraints=kept)
+    end = keep.state(place)
+    kept = keep.constraints(end, duration, given)
+    found = fp.plan(machine, start, aim, duration=duration, target=end, constraints=kept)
     console.print(f"{machine.name}: {found.summary}", markup=False)
     found.save(out)
     console.print(f"The plan is {bold(out)}.")

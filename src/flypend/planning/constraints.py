@@ -27,6 +27,10 @@ TOLERANCE = 1e-3  # rod lengths, by which a limit may be exceeded
 OWN_TOLERANCE = 1e-3  # the same of `Constraints.keep`, in its unit
 
 
+# What is 0 or 1: constant but for jumps, so that no solver sees which way leads to it.
+TRUTHS = (ca.OP_LT, ca.OP_LE, ca.OP_EQ, ca.OP_NE, ca.OP_NOT, ca.OP_AND, ca.OP_OR)
+
+
 class Motion(NamedTuple):
     """What constraints and costs of one's own are made of: CasADi expressions in SI units, world frame with e₃ up."""
 
@@ -208,6 +212,8 @@ def own_function(own: Own, rotors: int, name: str) -> ca.Function:
         raise InputError(name, what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
     if not values.numel():
         raise InputError(name, what, "one that gives none")
+    if any(value.op() in TRUTHS for value in ca.vertsplit(ca.vec(ca.densify(values)))):
+        raise InputError(name, "values such as a difference, which change along the way", "a comparison: 0 or 1")
     return function
 
 

@@ -42,6 +42,7 @@ STEPS: Mapping[float, float] = MappingProxyType(
 )
 MOST = 8  # go on
 FEWEST = 56  # stages, so that switching times are free enough
+LEAST = 0.02  # √(l/g), a few control periods: no plan is shorter, even from a start that hovers
 
 
 class Search:
@@ -140,17 +141,21 @@ def in_time(search: Search, horizons: Sequence[float], least: float) -> Plan:
     return search.make_plan(search.finish(best), costs)
 
 
-def shortest(search: Search, horizons: Sequence[float]) -> Plan:
-    """Return the shortest plan, which begins with the first of `horizons` that has any."""
-    for horizon in horizons:
+def shortest(search: Search, horizons: Sequence[float], longest: float | None) -> Plan:
+    """Return the shortest plan, which begins with the first of `horizons` that has any.
+
+    It fails if it takes longer than the `longest`, √(l/g). That is tried first, but is not all: guesses rarely lead to
+    a plan with little more than the least time.
+    """
+    for horizon in horizons if longest is None else (longest, *horizons):
         first = best = search.cold(horizon)
         if first or search.over:
             break
     if not first:
         return search.make_plan(first, first.found.costs)
     failures, horizon = 0, first.horizon
-    while failures < FAILURES:
-        tried = search.cold(horizon := COARSE * horizon)
+    while failures < FAILURES and (horizon := COARSE * horizon) >= LEAST:
+        tried = search.cold(horizon)
         best, failures = (tried, 0) if tried else (best, failures + 1)
     horizon = min(LOOSE * best.horizon, first.horizon)
     tries = search.each(horizon, max(FEWEST, round(STAGES_PER_UNIT * horizon)))
@@ -160,17 +165,21 @@ def shortest(search: Search, horizons: Sequence[float]) -> Plan:
         field = sorted((_shorten(search, each, step) for each in field), key=lambda each: each.horizon)
         reached[: len(field)] = [each.horizon for each in field]
         field = [each for each in field if each.horizon <= (1 + behind) * field[0].horizon][:MOST]
-    return search.make_plan(search.finish(field[0], FINAL_IN_TIME), reached)
+    plan = search.make_plan(search.finish(field[0], FINAL_IN_TIME), reached)
+    if longest is None or not plan or field[0].horizon <= longest:
+        return plan
+    return replace(plan, status="failed", reason=f"the shortest flight that was found takes {plan.duration:.3g} s")
 
 
 def _shorten(search: Search, tried: Tried, step: float) -> Tried:
     """Return what was `tried` with a horizon shortened by the share `step`, as often as that works."""
-    while True:
+    while (horizon := (1 - step) * tried.horizon) >= LEAST:
         watch = Watch([tried.job], [0], TRIES, SOFT_LAST)
-        shorter = search.warm(tried, (1 - step) * tried.horizon, (tried.found.states, tried.found.commands), watch)
+        shorter = search.warm(tried, horizon, (tried.found.states, tried.found.commands), watch)
         if not shorter:
-            return tried
+            break
         tried = shorter
+    return tried
 
 
 def _append_hover(tried: Tried, horizon: float) -> Guess:

@@ -16,6 +16,7 @@ import numpy as np
 
 from flypend.building import built
 from flypend.compile.numeric import as_numpy
+from flypend.errors import InputError
 from flypend.geometry import E3, cross, unit
 from flypend.model import State, Vehicle
 from flypend.model.state import SIZE
@@ -52,9 +53,10 @@ class Feedback:
 
 
 def regulator(plan: Plan) -> Feedback:
-    """Return the feedback along `plan`. Raises ValueError if it failed: a plan that misses hover is not to be flown."""
+    """Return the feedback along `plan`. Raises InputError if it failed, or does not end in inverted hover."""
     if not plan:
-        raise ValueError(f"the plan failed: {plan.reason}")
+        raise InputError("plan", "one that can be flown", plan.reason)
+    _ = plan.reference  # there is one only in inverted hover
     vehicle, units = plan.vehicle, Units.of(plan.vehicle)
     count = len(plan.commands)
     per_stage = (len(plan.t) - 1) // count

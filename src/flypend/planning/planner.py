@@ -63,7 +63,7 @@ def plan(
     objective : "excursion", "effort", "time", "cost" or dict
         What to minimise: the largest distance of the pivot from target or path, the deviation of the rotor commands
         from hover, the duration, or the `cost` of the constraints alone. A dict gives weights of "excursion" (of its
-        square, in rod lengths) and "effort".
+        square, in rod lengths) and "effort", the larger of them about 1.
     duration : float, optional
         Time by which the vehicle hovers, s; default 12.5 √(l/g), or longer if that is too short. A plan is shorter only
         if no plan of full length is as good.
@@ -93,7 +93,7 @@ def plan(
         If an argument is out of range, or the start breaks a constraint.
     """
     kept = gather("plan", constraints, keywords)
-    asked = request(vehicle, start, objective, end_of(kept.path, duration, target), rotors, kept)
+    asked = request(vehicle, start, objective, end_of(kept.path, duration, target, objective), rotors, kept)
     limit = math.inf if time_limit is None else errors.number("time_limit", time_limit, above=0, unit="s")
     longest = horizon_of(asked, duration)
     timed = objective == "time"
@@ -108,7 +108,7 @@ def plan(
         return plan_within(asked, longest or HORIZONS[0], 0, {})
     search = Search(attempts, time.thread_time() + limit)
     if timed:
-        return shortest(search, HORIZONS if longest is None else (longest,))
+        return shortest(search, ladder(None, asked), longest)
     return in_time(search, ladder(longest, asked), longest or HORIZONS[0])
 
 

@@ -118,6 +118,7 @@ def request(
     walls, speed, lean = kept.walls, kept.speed, kept.lean
     if not isinstance(vehicle, Vehicle):
         raise InputError("vehicle", "a Vehicle", repr(vehicle)[:80])
+    vehicle.sharing()  # hover is the same force of each rotor
     if not isinstance(start, State) or start.batch_shape:
         raise InputError("start", "a single State", repr(start)[:80])
     vehicle = vehicle.commanded()
@@ -128,7 +129,8 @@ def request(
     weights, end = weights_of(objective), _end(target)
     goal, ends = end.x, (start, end)
     per_command = weights["effort"] / STAGES_PER_UNIT / n
-    numbers = [weights["excursion"], per_command, low / units.force, high / units.force, _yaw(vehicle, units)]
+    numbers = [weights["excursion"], per_command, low / units.force, high / units.force]
+    numbers.append(spin_tolerance(vehicle, units))
     other = _other_end(end, units)
     numbers += other
     if kept.keep is not None or kept.cost is not None:
@@ -161,11 +163,13 @@ def request(
     return Request(vehicle, units, weights, goal, end, begin, kept, structure, np.concatenate([numbers, *gates, soft]))
 
 
-def end_of(path: Any, duration: Any, target: Any) -> Any:
+def end_of(path: Any, duration: Any, target: Any, objective: Any = None) -> Any:
     """Return the `target`, or the end of a `path` of that `duration` (s). Raises InputError."""
     check_reference(path, "path")
     if path is None:
         return (0.0, 0.0, 0.0) if target is None else target
+    if objective == "time":
+        raise InputError("objective", "another beside a path, which takes the duration", "'time'")
     if duration is None:
         raise InputError("duration", "the time that the path takes, s", "nothing")
     if target is not None:
@@ -235,7 +239,7 @@ def _forces(rotors: Any, low: float, high: float, n: int) -> Any:
     return forces
 
 
-def _yaw(vehicle: Vehicle, units: Units) -> float:
+def spin_tolerance(vehicle: Vehicle, units: Units) -> float:
     """Return the tolerance of the spin about the thrust axis at the end, own units.
 
     It is that of the other axes if rotor drag can change the spin by a unit in a unit of time. With less, the spin of a

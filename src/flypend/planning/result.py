@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
+from flypend.building import built
 from flypend.compile.numeric import as_numpy
 from flypend.errors import InputError
 from flypend.files.whole import whole_file
@@ -21,19 +22,21 @@ from flypend.flight.labels import UNITS, column_names
 from flypend.flight.metrics import wilson
 from flypend.flight.outcome import Outcome
 from flypend.flight.trajectory import Trajectory
-from flypend.geometry import E3, norm
+from flypend.geometry import norm
 from flypend.laws.references import Reference, hover, sample
 from flypend.model import State, Vehicle
 from flypend.model.state import SHAPES, SIZE, split
 from flypend.planning import files
-from flypend.planning.dynamics import Array
+from flypend.planning.dynamics import Array, Units
 from flypend.planning.files import Status
+from flypend.planning.inequalities import YAW, end_errors
+from flypend.planning.problem import spin_tolerance
 from flypend.planning.window import Window
 from flypend.plants.equations import runge_kutta_step
 from flypend.plants.lag import TIMING_SIZE, hold, step_timing
 
 INDEPENDENT_STEP = 1e-3  # s
-NEAR_HOVER = 0.5  # m/s, 1/s and 1, which no plan to hover is off at its end
+ROUNDING = 1e-6  # of a tolerance at the end
 
 
 @errors.named_arguments
@@ -64,8 +67,8 @@ class Plan:
     stage : float
         Duration of a stage, s.
     status : "converged", "feasible" or "failed"
-        "failed" unless the plan ends in hover and keeps all limits; "converged" if also `stationarity` is at most 1e-4.
-        A converged plan is a local optimum, the best of those that the guesses led to.
+        "failed" unless the plan ends in hover and keeps all limits; "converged" if also `stationarity` is at most 1e-4
+        and it keeps its clearance. A converged plan is a local optimum, the best of those that the guesses led to.
     reason : str
         Why it failed, or has not converged; else empty.
     solve_time : float
@@ -134,7 +137,11 @@ class Plan:
 
         Raises InputError if the plan ends otherwise than in inverted hover, after which there is nothing to follow.
         """
-        if np.max(norm(np.stack([self.x_dot[-1], self.y_dot[-1], self.y[-1] - E3]))) > NEAR_HOVER:
+        n, units = len(self.vehicle.rotor_spins), Units.of(self.vehicle)
+        end = np.append(self.packed[-1], self.rotor_forces[-1])
+        end[:3] -= self.target
+        errors_of = _hover_errors(n)(end / units.states(n), spin_tolerance(self.vehicle, units))
+        if not np.max(np.abs(errors_of)) <= 1 + ROUNDING:
             raise InputError("plan", "one that ends in inverted hover", "another end, which is not tracked")
         path = self.path
         return hover(self.target) if path is None else lambda t: path(ca.fmin(t, self.duration))
@@ -284,6 +291,14 @@ class PlanEnsemble:
         values = getattr(self, errors.one_of("name", name, ("excursion", "duration", "solve_time")))
         values = values[np.isfinite(values)]
         return float(np.percentile(values, q)) if len(values) else float("nan")
+
+
+@built(maxsize=4)
+def _hover_errors(rotors: int) -> Any:
+    """Return (state (24 + n,), tolerance of the spin), own units → `end_errors` about inverted hover."""
+    state, spin = ca.SX.sym("state", SIZE + rotors), ca.SX.sym("spin")
+    errors_of = end_errors(state, ca.vertcat(ca.SX(YAW, 1), spin))
+    return as_numpy(ca.Function("hover_errors", [state, spin], [ca.densify(errors_of)]))
 
 
 def _independent_step(vehicle: Vehicle) -> Any:

@@ -40,6 +40,7 @@ from flypend.planning.result import Plan
 from flypend.planning.solver import Problem, Settings, Solver, programs_of, side_by_side
 
 DENSE = 4  # samples per stage
+NEARER = 0.01  # rod lengths, by which a converged plan may be nearer than the clearance: a cost leaves that much
 FINER = 4  # times as many are checked: what moves at 10 m/s comes 12 mm farther between them on hehn2011
 
 
@@ -262,12 +263,13 @@ def plan_of(asked: Request, found: Found, horizon: float) -> Plan:
     stage, dense = h * units.time, _dense(asked, found, horizon, DENSE)
     packed, forces = dense[:, :SIZE], dense[:, SIZE:]
     lacks = begins_touching(packed, forces, asked.vehicle) or found.lacks
+    lacks = lacks or ("" if np.all(np.isfinite(dense)) else "its numbers are not finite")
     lacks = "the target is not reached" if asked.structure.end and lacks == NOT_REACHED else lacks
     if not lacks:
         finer = _dense(asked, found, horizon, DENSE * FINER)
         lacks = broken(finer[:, :SIZE], finer[:, SIZE:], asked.vehicle, asked.kept)
     status: Status = "failed" if lacks else "feasible" if found.unfinished else "converged"
-    return Plan(
+    plan = Plan(
         vehicle=asked.vehicle, objective=asked.objective, target=asked.target, path=asked.kept.path,
         windows=asked.kept.windows,
         t=np.arange(len(dense), dtype=float) * float(stage / DENSE), packed=packed, rotor_forces=forces,
@@ -275,3 +277,16 @@ def plan_of(asked: Request, found: Found, horizon: float) -> Plan:
         solve_time=found.spent, iterations=found.iterations, stationarity=found.stationarity, guess=found.style,
         guesses=len(found.costs), agreeing=0 if lacks else count_agreeing(found.costs),
     )  # fmt: skip
+    near = _too_near(plan, asked.kept.clearance or 0.0) if plan else ""
+    return replace(plan, status="feasible", reason=", ".join(filter(None, (plan.reason, near)))) if near else plan
+
+
+def _too_near(plan: Plan, clearance: float) -> str:
+    """Return by how much a `plan` is nearer than the `clearance` (m) to frames or mount; or "".
+
+    A cost grows for the clearance: what comes nearer can be flown as long as nothing touches. A start that is nearer is
+    to keep its own distance.
+    """
+    rooms = [plan.trajectory.clearance, *(window.room(plan.states, plan.vehicle) for window in plan.windows)]
+    lacking = max(min(clearance, float(room[0])) - float(np.min(room)) for room in rooms)
+    return f"the clearance is {lacking:.3g} m short" if lacking > NEARER * plan.vehicle.l else ""

@@ -66,7 +66,7 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)
     period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
-    measure, next_wind = _chance(vehicle, plant, packed, ticks)
+    measure, next_wind = _chance(true, plant, packed, ticks)
     computer = flight_computer(loop, begin, estimate_at_start(plant, packed))
     states, forces = [engine.packed], [engine.rotors]
     segments = segments_within(plant.delay, period)

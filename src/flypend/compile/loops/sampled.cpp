@@ -117,6 +117,10 @@ extern "C" void kernel(
         }
         computer.begin(state + STATE, estimate);
         for (int64_t i = 0; i < GUST; i++) gust[i] = V{};
+        if (GUST && RANDOM) {
+            normals(seed, U{} + uint64_t(GUST_TICK), FIRST_DRAW, END_DRAW, draws);
+            copy(draws + GUSTS, gust, 6);
+        }
         for (int64_t i = 0; i < 6; i++) wind[i] = V{};
         if (W == 1 && MUJOCO) engine.begin(first, state);
         results.begin();

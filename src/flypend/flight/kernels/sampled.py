@@ -243,7 +243,7 @@ def write_sampled(
     problem: SampledProblem, width: int, target: Target | None = None
 ) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` flights at a time, and what writes its module."""
-    key = f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}"
+    key = f"sampled, {width} lanes, judged to the end, states below {MAX_STATE}: {problem!r}"
     return key, lambda: kernel_module(problem, width, target)
 
 

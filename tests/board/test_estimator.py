@@ -562,11 +562,17 @@ def test_a_steady_gain_solves_its_riccati_equation():
         assert gain == pytest.approx((after + wander) / (after + wander + noise), rel=1e-9)
 
 
+def test_a_pivot_beside_the_centre_of_mass_does_not_mislead_the_accelerometer():
+    """With readings of the pivot's acceleration, one start in ten succeeds."""
+    plant = Plant(sensors="onboard", pivot_offset=(0.0, 0.0, 0.05))
+    assert fp.simulate_ensemble(VEHICLE, LAW, fp.random_starts(20, 2), 12.0, plant=plant).rate > 0.8
+
+
 # One source ---------------------------------------------------------------------------------------------------------
 
 BOARDS = {
     "mocap": Plant(sensors="mocap"),
-    "onboard": Plant(sensors="onboard", rate=400.0),
+    "onboard": Plant(sensors="onboard", rate=400.0, pivot_offset=(0.01, 0.0, 0.05)),
     "all": Plant(sensors=EVERYTHING, delay=0.003),
     "rates": Plant(sensors="mocap", interface="rates", rate=50.0, delay=0.03),
     "differenced": Plant(sensors=SUITES["mocap"].replace(rates="differenced")),

@@ -70,7 +70,10 @@ def targets(law, vehicle, times):
 
 
 def at_every_time(flown, times, law, vehicle, criterion):
-    """The first five reductions (n, 5) from the states at all `times` (k,): those of `metrics`, run by run."""
+    """The first five reductions (n, 5) from the states at all `times` (k,): those of `metrics`, run by run.
+
+    The distance of a run that ends early is judged at its end as well.
+    """
     s, (x_ref, moving) = flown.samples, targets(law, vehicle, times)
     distance = np.linalg.norm(s[..., :3] - x_ref, axis=-1)
     excess = criterion.excess(s[..., 18:21], s[..., [8, 11, 14]], distance, moving, law.e3)
@@ -79,6 +82,8 @@ def at_every_time(flown, times, law, vehicle, criterion):
     after, count = np.max(last, axis=0) + 1, np.sum(taken, axis=1)
     since = np.where(after < count, times[np.minimum(after, len(times) - 1)], np.inf)
     reached = np.max(np.where(taken, distance, -np.inf), axis=1)
+    at_end = np.linalg.norm(flown.final[:, :3] - targets(law, vehicle, flown.end)[0], axis=1)
+    reached = np.where(flown.code == 0, reached, np.maximum(reached, at_end))
     return np.stack([since, *(np.where(one >= 0, times[one], -1.0) for one in last), reached], axis=1)
 
 

@@ -412,9 +412,11 @@ def test_a_run_without_samples_to_judge_is_refused_and_a_long_hold_is_not_late()
 
 
 def test_a_run_that_touches_at_its_start_strays_by_nothing():
-    """A mean over such runs is finite: a kernel has no sample of them."""
+    """Its one sample is its start."""
     vehicle = fp.vehicle("hehn2011").replace(mount="hub")
     found = fp.simulate_ensemble(vehicle, fp.laws.inverted(), fp.State.random(np.random.default_rng(0), 64), 0.5)
     touched = found.end == 0
     assert touched.any()
     assert np.all(found.excursion[touched] == 0)
+    assert np.all(found.lowest[touched] < 0)
+    assert np.all(found.peak_force[touched] == vehicle.rotor_limits[0])

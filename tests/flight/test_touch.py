@@ -224,6 +224,29 @@ def test_kernel_and_reference_end_at_the_same_floor(name):
     assert np.all(np.isinf(ends.clearance))  # the floor is no part of the mount
 
 
+@pytest.mark.parametrize(
+    ("vehicle", "plant"), [(FREE, fp.Plant(floor=-0.9)), (FREE, fp.Ideal(floor=-0.9)), (HUB, "rotors"), (HUB, "ideal")]
+)
+def test_a_flight_that_touches_is_judged_up_to_the_touch(vehicle, plant):
+    """As the single run, but that forces in the ideal plant come from the steps: those of a flight that ends there."""
+    starts, law, ideal = fp.random_starts(12, 5), fp.laws.lqr(), plant == "ideal" or isinstance(plant, fp.Ideal)
+    found = fp.simulate_ensemble(vehicle, law, starts, 2.0, plant=plant)
+    touched = np.flatnonzero((found.cause == "collided") & (found.end > 0))
+    assert len(touched) > 6
+    for i in touched:
+        start = starts[int(i) : int(i) + 1]
+        single = fp.metrics(fp.simulate(vehicle, law, start[0], 2.0, plant=plant))
+        forces = single
+        if ideal:
+            free = fp.simulate_ensemble(FREE, law, start, found.end[i], plant="ideal")
+            forces = fp.Metrics(**{name: values[0] for name, values in free.columns.items()})
+        names = ["excursion"] if ideal else ["excursion", "lowest", "box_x", "box_y", "box_z"]
+        for name in names:
+            assert getattr(found, name)[i] == pytest.approx(getattr(single, name), rel=1e-9), name
+        for name in ("effort", "peak_force"):
+            assert getattr(found, name)[i] == pytest.approx(getattr(forces, name), rel=1e-9), name
+
+
 @pytest.mark.parametrize("e3", [slow("up"), "down"])
 def test_in_free_fall_the_lowest_part_lands_when_galileo_says(e3):
     """The rod hangs, and no rotor gives any force; height is upward in either frame."""

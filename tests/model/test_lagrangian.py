@@ -18,6 +18,8 @@ from flypend.model import (
     rod_tension,
     total_energy,
 )
+from flypend.model.dynamics import bob_tension
+from flypend.model.rod import uniform_rod
 from flypend.paper import experiment
 
 # Sums of some ten products of numbers of order one to thirty, eps each.
@@ -309,20 +311,36 @@ def test_tension_of_the_rod_balances_both_bodies(e3):
     rng = np.random.default_rng(9)
     vehicle, state, wrench = _vehicle(9, e3), fp.State.random(rng, 50), _wrench(rng, (50,))
     rates, g = equations_of_motion(state, wrench, vehicle, e3), gravity_vector(vehicle, e3)
-    pull = geo.scale(rod_tension(state, wrench, vehicle), state.y)
+    pull = geo.scale(bob_tension(state, wrench, vehicle), state.y)
     quadrotor = vehicle.M * rates.x_ddot - vehicle.M * g - geo.scale(wrench.thrust, state.z)
     bob = vehicle.m * (rates.x_ddot + vehicle.l * rates.y_ddot) - vehicle.m * g
     np.testing.assert_allclose(quadrotor, pull, rtol=0, atol=100 * ROUNDOFF)
     np.testing.assert_allclose(bob, -pull, rtol=0, atol=100 * ROUNDOFF)
 
 
-def test_tension_at_rest_is_the_weight_of_the_bob():
+@pytest.mark.parametrize("e3", DIRECTIONS)
+@pytest.mark.parametrize("inertia", [0.0, 0.3])
+def test_force_along_the_rod_is_that_of_a_rigid_body_held_at_its_end(inertia, e3):
+    """Newton's second law of the rod, whose centre of mass is at x + l_r y, and of the vehicle without it."""
+    rng = np.random.default_rng(9)
+    vehicle = _vehicle(9, e3).replace(rod_inertia=inertia)
+    state, wrench = fp.State.random(rng, 50), _wrench(rng, (50,))
+    rates, g = equations_of_motion(state, wrench, vehicle, e3), gravity_vector(vehicle, e3)
+    on_vehicle = -vehicle.bob_mass * (rates.x_ddot + vehicle.rod_length * rates.y_ddot - g)
+    found = rod_tension(state, wrench, vehicle)
+    np.testing.assert_allclose(geo.dot(on_vehicle, state.y), found, rtol=0, atol=100 * ROUNDOFF)
+    own = vehicle.mass * (rates.x_ddot - g) - geo.scale(wrench.thrust, state.z)
+    np.testing.assert_allclose(own, on_vehicle, rtol=0, atol=100 * ROUNDOFF)
+
+
+@pytest.mark.parametrize("rod", [{}, uniform_rod(0.1, 1.0)], ids=["bob", "uniform"])
+def test_tension_at_rest_is_the_weight_of_the_rod(rod):
     # e₃ up: hanging from a hovering vehicle the rod pulls with m g, standing on it it pushes with m g.
-    vehicle = fp.vehicle("hehn2011")
+    vehicle = fp.vehicle("hehn2011").replace(**rod)
     hover = fp.Wrench(vehicle.weight, np.zeros(3))
     for height, tension in ((-1, 1), (1, -1)):
         state = fp.State(y=(0, 0, height))
-        assert rod_tension(state, hover, vehicle) == pytest.approx(tension * vehicle.m * vehicle.g, rel=1e-14)
+        assert rod_tension(state, hover, vehicle) == pytest.approx(tension * vehicle.bob_mass * vehicle.g, rel=1e-14)
         assert np.max(np.abs(equations_of_motion(state, hover, vehicle, "up").packed())) < ROUNDOFF
 
 

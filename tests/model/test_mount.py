@@ -9,6 +9,7 @@ from flypend.errors import InputError
 from flypend.geometry import random_rotation, random_sphere
 from flypend.model.body import Body
 from flypend.model.mount import clearances, least_margin, margins, margins_of, part_names
+from flypend.model.rod import uniform_rod
 
 LENGTH = 0.565
 BODY = Body(disc_radius=0.0635, arm_radius=0.006, hub_radius=0.03, rod_radius=0.005)
@@ -120,11 +121,12 @@ def test_the_room_in_a_cup_is_the_distance_of_the_bob_to_the_cone():
     np.testing.assert_allclose(room, np.where(lean < 1.0, least, -least), atol=1e-4)
 
 
-def test_a_cup_can_push_but_not_pull():
-    """At hover the cup carries the bob's weight; a vehicle in free fall with a spinning rod would have to pull."""
-    vehicle = fp.vehicle("hehn2011").replace(mount="cup")
+@pytest.mark.parametrize("rod", [{}, uniform_rod(0.1, 1.0)], ids=["bob", "uniform"])
+def test_a_cup_can_push_but_not_pull(rod):
+    """At hover the cup carries the rod's weight; a vehicle in free fall with a spinning rod would have to pull."""
+    vehicle = fp.vehicle("hehn2011").replace(mount="cup", **rod)
     hover = margins(fp.State(y=(0, 0, 1)), fp.Wrench(vehicle.weight, np.zeros(3)), vehicle, "up")
-    assert hover[1] == pytest.approx(vehicle.m * vehicle.g)
+    assert hover[1] == pytest.approx(vehicle.bob_mass * vehicle.g)
     spinning = margins(fp.State(y=(0, 0, 1), y_dot=(3, 0, 0)), fp.Wrench(0.0, np.zeros(3)), vehicle, "up")
     assert spinning[1] < 0
 

@@ -1,5 +1,6 @@
 """Knocks: one in every interval, at a moment without preference, of the size asked for, in no preferred direction."""
 
+import casadi as ca
 import numpy as np
 import pytest
 
@@ -62,3 +63,18 @@ def test_a_knock_changes_the_momentum_by_its_impulse_and_leaves_gusts_alone():
     gust = fp.Wind(gust_on_bob=0.1)
     both = forces(fp.Wind(gust_on_bob=0.1, knock_on_bob=1e-9, knock_period=PERIOD), 100)
     np.testing.assert_allclose(both, forces(gust, 100), rtol=0, atol=1e-9 * RATE)
+
+
+def test_gusts_blow_from_the_start_as_hard_as_later():
+    """By the momentum that machines in free fall gain in the first two ticks."""
+    size, period = 0.2, 1 / RATE
+    vehicle, wind = fp.vehicle("hehn2011"), fp.Wind(gust_on_vehicle=size, gust_on_bob=size, gust_time=20.0)
+    rest = fp.Law(name="rest", e3="up", control=lambda *_: fp.Wrench(ca.SX(0), ca.SX.zeros(3)))
+    plant = fp.Plant(limits=False, lag=0.0, rate=RATE, wind=wind)
+    starts = fp.State.trusted(np.tile(fp.State(y=(0, 0, 1)).packed(), (400, 1)))
+    found = fp.simulate_ensemble(vehicle, rest, starts, 2 * period, plant=plant, times=[0.0, period, 2 * period])
+    gained = np.diff(linear_momentum(found.samples, vehicle), axis=1) / period + np.array([0, 0, vehicle.weight])
+    # Of 1200 numbers the standard deviation is known to a share of 1/√2400; six of those.
+    np.testing.assert_allclose(gained.std(axis=(0, 2)), np.sqrt(2) * size, rtol=6 / np.sqrt(2400))
+    single = fp.simulate(vehicle, rest, starts[3], 2 * period, plant=plant.replace(seed=3), engine="scipy")
+    np.testing.assert_allclose(single.packed[-1], found.samples.packed()[3, -1], rtol=0, atol=1e-12)

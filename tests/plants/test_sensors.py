@@ -22,9 +22,9 @@ def sensors(**streams):
     return Sensors(**given | streams)
 
 
-def flown(ticks, period, steps=50):
+def flown(ticks, period, steps=50, vehicle=VEHICLE):
     """A tumbling vehicle under constant rotor forces, in fine steps: packed states (ticks · steps + 1, 24)."""
-    engine = EquationsEngine(VEHICLE)
+    engine = EquationsEngine(vehicle)
     start = fp.State(x_dot=(1, -0.5, 0.3), omega=(2, -3, 1), y=(0.6, 0, 0.8), y_dot=(0.8, 1, -0.6))
     engine.reset(start.packed(), np.array([1.0, 1.2, 1.4, 1.1]))
     states = [engine.packed]
@@ -34,9 +34,9 @@ def flown(ticks, period, steps=50):
     return np.array(states)
 
 
-def read(suite, states, period, steps=50, draws=None):
+def read(suite, states, period, steps=50, draws=None, vehicle=VEHICLE):
     """What is delivered at each tick, by stream: numbers, and ages (s)."""
-    sense = as_numpy(sensing(suite, VEHICLE, period))
+    sense = as_numpy(sensing(suite, vehicle, period))
     memory = np.asarray(ca.DM(first_memory(suite, period, states[0]))).ravel()
     found = []
     for k, packed in enumerate(states[::steps]):
@@ -83,12 +83,16 @@ def test_a_reading_is_the_state_at_its_own_instant(rate, latency):
         assert timing(suite.streams[name], period).oldest * period >= ages.max() - 1e-9
 
 
-def test_an_accelerometer_feels_everything_but_gravity():
-    period, steps = 0.002, 50
-    states = flown(60, period, steps)
-    values, ages = read(sensors(accelerometer=Sensor(rate=500.0, noise=1e-9)), states, period, steps)["accelerometer"]
+@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (0.01, -0.02, 0.05)])
+def test_an_accelerometer_feels_everything_but_gravity(offset):
+    """At the centre of mass, wherever the pivot is."""
+    period, steps, vehicle = 0.002, 50, VEHICLE.replace(pivot_offset=offset)
+    states, suite = flown(60, period, steps, vehicle), sensors(accelerometer=Sensor(rate=500.0, noise=1e-9))
+    values, ages = read(suite, states, period, steps, vehicle=vehicle)["accelerometer"]
     fine = period / steps
-    force = np.diff(states[:, 3:6], axis=0) / fine + [0, 0, VEHICLE.g]
+    arm = fp.State.trusted(states).R @ offset
+    velocity = states[:, 3:6] - np.gradient(arm, fine, axis=0, edge_order=2)
+    force = np.diff(velocity, axis=0) / fine + [0, 0, VEHICLE.g]
     body = np.einsum("nji,nj->ni", fp.State.trusted(states[:-1]).R, force)
     mean = body.reshape(-1, steps, 3).mean(axis=1)
     assert ages[0] < 0  # no period has passed

@@ -16,6 +16,7 @@ PIECEWISE = frozenset(
 # Longest interval in which the rod moves along a cubic, s.
 LONGEST = 2e-3
 GUSTS = 18  # place of the first number for the gusts among the random numbers of a tick
+GUST_TICK = 2**40 + 1  # the tick whose numbers are the gusts before the first; that before it is for sensors
 
 
 @dataclass(frozen=True)

@@ -152,7 +152,7 @@ class Parts:
         self.queued = int(np.ceil(latest * env.rate - 1e-9))
         self.timing, self.numbers = timing_size(env.plant), 3 + n if env.randomise.varies else 0
         self.lengths = [SIZE, n, env.actions, self.queued * n, 6, self.timing, self.numbers, 1]
-        self.estimates = None if env.sensors is None else Estimates(env.vehicle, self._computer())
+        self.estimates = None if env.sensors is None else Estimates(env.vehicle, self.true, self._computer())
 
     def _computer(self) -> Sampled:
         """The plant as the flight computer knows it whose commands the actions are."""

@@ -36,9 +36,9 @@ ACTIONS = Controller(name="actions", function=lambda t, state: Wrench(0.0, np.ze
 
 
 class Estimates:
-    """The programs of a filter in worlds of `vehicle`, which fly as `plant` does, its rate that of the actions.
+    """The programs of a filter for `vehicle` in worlds of the `true` one, which fly as `plant` does.
 
-    `record` is the table of their memory.
+    The rate of `plant` is that of the actions. `record` is the table of their memory.
 
     Raises
     ------
@@ -46,10 +46,10 @@ class Estimates:
         If the plant's sensors difference poses instead of estimating.
     """
 
-    def __init__(self, vehicle: Vehicle, plant: Plant) -> None:
+    def __init__(self, vehicle: Vehicle, true: Vehicle, plant: Plant) -> None:
         if plant.sensors.rates != "estimated":
             raise InputError("sensors.rates", "'estimated'", repr(plant.sensors.rates))
-        self._loop, self._vehicle, self._plant = Loop(vehicle, ACTIONS, plant), vehicle, plant
+        self._loop, self._true, self._plant = Loop(vehicle, ACTIONS, plant), true, plant
         self._filter = Filter(self._loop, Nominal(vehicle))
         self._correct, self._carry = self._filter.correct(), self._filter.carry()
         width = command_width(self._loop)
@@ -74,7 +74,7 @@ class Estimates:
 
     def first(self) -> ca.Function:
         """(state and rotor forces (24 + n,), draws of the start) → memory before the first readings."""
-        begin = ca.SX.sym("s", SIZE + len(self._vehicle.rotor_spins))
+        begin = ca.SX.sym("s", SIZE + len(self._true.rotor_spins))
         draws = ca.SX.sym("d", start_draws(self._plant.sensors))
         state, rotors = begin[:SIZE], begin[SIZE:]
         estimate = first_estimate(self._plant.sensors)(state, draws)
@@ -101,7 +101,7 @@ class Estimates:
         memory, t = ca.MX.sym("memory", self.record.length), ca.MX.sym("t")
         state, draws = ca.MX.sym("s", SIZE), ca.MX.sym("d", draws_size(sensors))
         parts = self.record.split(memory)
-        kept, readings = sensing(sensors, self._vehicle, period)(parts["sensors"], t, state, draws)
+        kept, readings = sensing(sensors, self._true, period)(parts["sensors"], t, state, draws)
         estimate, _, outside = self._correct(parts["estimate"], readings, [])
         after = self.record.join(parts | {"estimate": estimate, "outside": outside, "sensors": kept})
         return ca.Function("sense", [memory, t, state, draws], [after])

@@ -28,9 +28,9 @@ class Metrics:
     """Metrics of one flight against its criterion, by default inverted hover at the reference.
 
     A trajectory is judged at its samples, and so are flights of an ensemble in a sampled plant; means over time follow
-    the trapezoidal rule. In the ideal plant an ensemble takes forces from the steps of the integration. The largest is
-    that of all stages, so peaks between samples count; the mean uses the weights of the method. The excursion is taken
-    at the samples, as accurately as the integration.
+    the trapezoidal rule. A flight that ends early is judged at its last state as well. In the ideal plant an ensemble
+    takes forces from the steps of the integration. The largest is that of all stages, so peaks between samples count;
+    the mean uses the weights of the method. The excursion is taken at the samples, as accurately as the integration.
 
     Parameters
     ----------
@@ -193,13 +193,12 @@ def judge(
     return {
         "success": success,
         "settling": np.where(success, since, np.nan),
-        "excursion": np.maximum(excursion, 0.0),  # of a run that touched at its start there is no sample: −∞
+        "excursion": excursion,
         "effort": np.sqrt(square) / share,
-        "peak_force": np.maximum(peak, 0.0),
+        "peak_force": peak,
         "end": end,
         "clearance": np.full(len(end), np.inf) if clearance is None else clearance,
-        # A run that ended at its start was not looked at: infinite.
-        **{name: np.where(np.isfinite(values), values, np.nan) for name, values in room.items()},
+        **room,
         "cause": np.where(success, "", cause),
     }
 

@@ -18,6 +18,7 @@ from flypend.board.computer import Estimating, FlightComputer, SteppedBoard
 from flypend.building import built
 from flypend.compile.llvm.random import PER_TICK, normals
 from flypend.compile.numeric import as_numpy, distinct
+from flypend.compile.problem import GUST_TICK
 from flypend.errors import InputError
 from flypend.flight.outcome import LEFT, Outcome
 from flypend.flight.request import Flight
@@ -66,7 +67,7 @@ def fly_stepwise(flight: Flight, rotors: Numbers = None) -> Samples:
     engine.reset(packed, begin)
     world = Actuation(engine, vehicle, plant)
     period, ticks = 1 / plant.rate, number_of_ticks(duration, plant)
-    measure, next_wind = _chance(vehicle, plant, packed, ticks)
+    measure, next_wind = _chance(true, plant, packed, ticks)
     computer = flight_computer(loop, begin, estimate_at_start(plant, packed))
     states, forces = [engine.packed], [engine.rotors]
     segments = segments_within(plant.delay, period)
@@ -153,6 +154,8 @@ def _chance(
         return measure, lambda _: np.zeros(6)
     blow, numbers, gust = _compile(gusts), wind_numbers(plant.wind, 1 / plant.rate), np.zeros(GUST_MEMORY)
     nothing = np.zeros(6)
+    if drawn is not None:
+        gust[:6] = normals(plant.seed, 1, first=GUST_TICK)[0, GUSTS]
 
     def next_wind(k: int) -> Numbers:
         gust[:], force = blow(gust, nothing if drawn is None else drawn[k, GUSTS], numbers)

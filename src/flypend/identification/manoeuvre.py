@@ -20,7 +20,7 @@ from flypend.model.rod import stretch
 from flypend.model.state import SIZE
 from flypend.plants.actuation import make_engine
 from flypend.plants.equations import rates_under
-from flypend.plants.measurement import wind_numbers
+from flypend.plants.measurement import GUST_MEMORY, gusts, wind_numbers
 from flypend.plants.noise import Noise
 from flypend.plants.plant import Plant, Wind
 from flypend.plants.schedule import segments_within
@@ -78,8 +78,9 @@ def rehearse(
     biases = bias * rng.normal(size=6) * np.repeat([1, 10], 3)
     segments, felt = segments_within(plant.delay, h), _specific_force(true, plant)
     asked = [hover] * (2 + max(age for age, _ in segments))
-    wind, gust, rows, states = plant.wind, np.zeros(6), [], []
-    decay, on_vehicle, on_bob, *steady = wind_numbers(wind, h)[:9]
+    blow, wind, rows, states = as_numpy(gusts(knocks=False)), wind_numbers(plant.wind, h), [], []
+    first, before = rng.spawn(1)[0].normal(size=(2, 6))
+    gust, outside = blow(np.append(first, np.zeros(GUST_MEMORY - 6)), before, wind)
     behind, turned = round(latency / h), np.zeros(3)
     attitude = LAG_SHARE / max(true.rotor_lag, LAG_SHARE / ATTITUDE)
     for k in range(int(duration * RATE)):
@@ -92,18 +93,18 @@ def rehearse(
         R = seen.R @ rotation_from_vector(noise.attitude * rng.normal(size=3))
         y = unit(seen.y + noise.y * rng.normal(size=3))
         gyro = s.omega + biases[:3] + noise.omega * rng.normal(size=3)
-        force = felt(packed, engine.rotors, gust + steady) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
+        force = felt(packed, engine.rotors, outside) + biases[3:] + ACCELEROMETER * rng.normal(size=3)
         speed = seen.x_dot + noise.x_dot * rng.normal(size=3)
         read = x - where[int(k * h / STEP_TIME)], speed, R, gyro, y
         command, error = _feedback(k * h, read, turned, vehicle, attitude)
         turned += h * error
         rows.append([k * h, *x, *quat_xyzw_from_rotation(R)[[3, 0, 1, 2]], *gyro, *force, *y, *command])
         asked = [command, *asked[:-1]]
-        if wind is not None:
-            gust = decay * gust + np.repeat([on_vehicle, on_bob], 3) * rng.normal(size=6)
+        if plant.wind is not None:
+            gust, outside = blow(gust, rng.normal(size=6), wind)
         for age, held in segments:
             for _ in range(2):
-                engine.step(asked[age], held / 2, gust + steady)
+                engine.step(asked[age], held / 2, outside)
     names = ("t", *POSE, *GYRO, *FORCE, *ROD, *(f"u{i + 1}" for i in range(n)))
     return Rehearsal(dict(zip(names, np.array(rows).T, strict=True)), np.array(states))
 
@@ -118,11 +119,11 @@ def write_log(path: str | Path, columns: dict[str, Any]) -> None:
 
 
 def _specific_force(true: Vehicle, plant: Plant) -> Callable[..., Any]:
-    """Return (state (24,), rotor forces (n,), gusts (6,)) → specific force (3,) at the centre of mass, body, m/s²."""
-    packed, rotors, gusts = ca.SX.sym("s", SIZE), ca.SX.sym("f", len(true.rotor_spins)), ca.SX.sym("g", 6)
-    rates = State.symbolic(rates_under(packed, rotors, true.mixing() @ rotors, gusts, true, plant))
+    """Return (state (24,), rotor forces (n,), wind (6,)) → specific force (3,) at the centre of mass, body, m/s²."""
+    packed, rotors, wind = ca.SX.sym("s", SIZE), ca.SX.sym("f", len(true.rotor_spins)), ca.SX.sym("g", 6)
+    rates = State.symbolic(rates_under(packed, rotors, true.mixing() @ rotors, wind, true, plant))
     felt = specific_force(State.symbolic(packed), rates, true)
-    return as_numpy(ca.Function("felt", [packed, rotors, gusts], [ca.densify(felt)]))
+    return as_numpy(ca.Function("felt", [packed, rotors, wind], [ca.densify(felt)]))
 
 
 def _feedback(t: float, read: Any, turned: Any, vehicle: Vehicle, attitude: float) -> tuple[Any, Any]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.geometry import Scalar, Vector, cross, dot, is_symbolic
-from flypend.model.state import State
+from flypend.model.state import State, centre_velocity
 
 AirEffect = Literal["rotor_drag", "inflow", "lift", "body_drag"]
 AIR: tuple[AirEffect, ...] = ("rotor_drag", "inflow", "lift", "body_drag")
@@ -99,7 +99,7 @@ def air_wrench(
     coefficients = {name: getattr(vehicle.air, name) if name in effects else 0.0 for name in AIR}
     drag, inflow, lift = (coefficients[name] for name in ("rotor_drag", "inflow", "lift"))
     offset = vehicle.pivot_offset if is_symbolic(vehicle.pivot_offset) else ca.DM(vehicle.pivot_offset)
-    velocity = ca.mtimes(state.R.T, state.x_dot) - cross(state.omega, offset)
+    velocity = ca.mtimes(state.R.T, centre_velocity(state, offset))
     force, moment = ca.SX(3, 1), ca.SX(3, 1)
     for k, place in enumerate(vehicle.rotor_positions):
         seen, f = velocity + cross(state.omega, ca.DM(place)), ca.fmax(forces[k], 0)

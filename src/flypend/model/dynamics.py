@@ -9,6 +9,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic
+from flypend.model.rod import is_point
 from flypend.model.state import E3Direction, State, Wrench
 from flypend.model.vehicle import Vehicle
 
@@ -93,7 +94,19 @@ def linear_momentum(state: State, vehicle: Vehicle) -> Vector:
     return (vehicle.M + vehicle.m) * state.x_dot + vehicle.m * vehicle.l * state.y_dot
 
 
-def rod_tension(state: State, wrench: Wrench, vehicle: Vehicle) -> Scalar:
-    """Rod tension T, N: positive in tension (a cable would suffice), negative in compression (needs a rod)."""
+def bob_tension(state: State, wrench: Wrench, vehicle: Vehicle) -> Scalar:
+    """Tension T of the rod in `equations_of_motion`, N, between the mass M at the pivot and the point bob m."""
     M, m, l = vehicle.M, vehicle.m, vehicle.l
     return m / (M + m) * (M * l * dot(state.y_dot, state.y_dot) - wrench.thrust * dot(state.y, state.z))
+
+
+def rod_tension(state: State, wrench: Wrench, vehicle: Vehicle) -> Scalar:
+    """Force along the rod, N: positive in tension (a cable would suffice), negative in compression (needs a rod).
+
+    The vehicle's own mass M₀ and a rod that is no point bob meet at the pivot: of f z + T y, which acts on M, the mass
+    M − M₀ of the rod takes its share. It leaves T − (M − M₀)/M (f y·z + T).
+    """
+    T = bob_tension(state, wrench, vehicle)
+    if is_point(vehicle):
+        return T
+    return T - (1 - vehicle.mass / vehicle.M) * (wrench.thrust * dot(state.y, state.z) + T)

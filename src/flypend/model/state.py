@@ -260,6 +260,11 @@ def _part(field: str, value: Any) -> Any:
     raise errors.InputError(field, "real numbers, or CasADi expressions", repr(value)[:80])
 
 
+def centre_velocity(state: State, pivot_offset: Vector) -> Vector:
+    """Velocity of the centre of mass c = x − R o of the vehicle, world frame, m/s; o is in the body frame, m."""
+    return state.x_dot - geometry.apply(state.R, geometry.cross(state.omega, pivot_offset))
+
+
 def convert_packed(packed: Numbers, e3: E3Direction) -> Numbers:
     """As `State.in_frame` for packed states (..., 24), or (24, 1) in CasADi, `e3` being "up" or "down"."""
     return packed if e3 == "up" else packed * FLIP_PACKED

@@ -14,7 +14,8 @@ from itertools import accumulate
 import casadi as ca
 
 from flypend.geometry import E3, cross, dot
-from flypend.model import State, Vehicle, Wrench, rod_tension
+from flypend.model import State, Vehicle, Wrench
+from flypend.model.dynamics import bob_tension
 from flypend.model.mount import least_margin, rod_in_body
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import MOTION, POSITION, VELOCITY, Scaled, Stage, retract
@@ -153,10 +154,13 @@ def _least_margin(state: ca.SX, about: ca.SX, mounted: Vehicle, machine: Scaled)
 
 
 def _rod_push(state: ca.SX, machine: Scaled) -> ca.SX:
-    """Return the rod in the body frame (3,) and its push on the vehicle, in weights."""
+    """Return the rod in the body frame (3,) and its push on the vehicle, in weights.
+
+    The push is that of the equivalent point bob: of a rod with inertia, in a cup that lifts it, less than its own.
+    """
     s = State.symbolic(state[:SIZE])
     thrust = ca.mtimes(machine.mixing()[0, :], state[SIZE:])
-    tension = rod_tension(s, Wrench(thrust, ca.SX(3, 1)), machine.vehicle)
+    tension = bob_tension(s, Wrench(thrust, ca.SX(3, 1)), machine.vehicle)
     return ca.vertcat(rod_in_body(s, "up")[0], -tension)
 
 

@@ -5,7 +5,7 @@ A flight in pieces takes them anew with each piece; see `flypend.flight.kernels.
 
 from __future__ import annotations
 
-from dataclasses import astuple, replace
+from dataclasses import astuple
 from typing import Any
 
 import casadi as ca
@@ -118,6 +118,5 @@ def _timing(lag: Scalar, duration: Scalar) -> Numbers:
 
 def _wind(of: dict[str, Any], plant: Sampled, period: float) -> Numbers:
     """As `wind_numbers`, whose decay and knocks are those of `plant`."""
-    fixed = wind_numbers(replace(plant.wind or Wind(), gust_on_vehicle=1.0, gust_on_bob=1.0), period)
-    gusty = (fixed[1] * of["gust_on_vehicle"], fixed[2] * of["gust_on_bob"])
+    fixed, gusty = wind_numbers(plant.wind or Wind(), period), (of["gust_on_vehicle"], of["gust_on_bob"])
     return ca.vertcat(fixed[0], *gusty, of["on_vehicle"], of["on_bob"], fixed[9:])

@@ -22,7 +22,8 @@ MEASUREMENT, GUSTS = slice(0, 18), slice(18, 24)
 NEVER = -1e3  # a standard normal number is never below it
 TINY = 1e-300  # keeps draws that are all zero, as without any randomness, from making NaN
 NOISE_SIZE, WIND_SIZE = 6, 12
-# What `gusts` remembers: the gust, ticks since the interval of a knock began, and the tick of its knock, not rounded.
+# What `gusts` remembers: the gust in standard deviations, ticks since the interval of a knock began, and the tick of
+# its knock, not rounded.
 GUST_MEMORY = 8
 
 
@@ -34,14 +35,12 @@ def noise_numbers(noise: Noise | None) -> Numbers:
 def wind_numbers(wind: Wind | None, period: float) -> Numbers:
     """Parameters (12,) of `wind` for `gusts`, with all forces held constant over a control `period`, s.
 
-    The decay of a gust over one period, the standard deviations (N) of its per-axis increments on vehicle and bob, the
-    constant forces on both, N; the forces of a knock on both, N, and the ticks of its interval.
+    The decay of a gust over one period, its standard deviations (N) per axis on vehicle and bob, the constant forces on
+    both, N; the forces of a knock on both, N, and the ticks of its interval.
     """
     if wind is None:
         return np.zeros(WIND_SIZE)
-    decay = np.exp(-period / wind.gust_time)
-    added = np.sqrt(1 - decay**2)
-    gusty = (added * wind.gust_on_vehicle, added * wind.gust_on_bob)
+    decay, gusty = np.exp(-period / wind.gust_time), (wind.gust_on_vehicle, wind.gust_on_bob)
     knocking = (wind.knock_on_vehicle / period, wind.knock_on_bob / period, max(1, round(wind.knock_period / period)))
     return np.array([decay, *gusty, *wind.on_vehicle, *wind.on_bob, *knocking])
 
@@ -77,20 +76,22 @@ def displace(s: State, error: Numbers) -> State:
 def gusts(*, knocks: bool = True) -> ca.Function:
     """CasADi function (memory (8,), draws (6,), `wind_numbers`) → memory, forces on vehicle and bob (6,), N.
 
+    A flight whose memory begins with six draws, followed by zeros, has gusts of equal strength from its start.
     Without `knocks` there are none, whatever the numbers, at less cost.
     """
     memory, draws, numbers = ca.SX.sym("g", GUST_MEMORY), ca.SX.sym("n", 6), ca.SX.sym("w", WIND_SIZE)
     decay, on_vehicle, on_bob, constant = numbers[0], numbers[1], numbers[2], numbers[3:9]
-    gust = decay * memory[:6] + ca.vertcat(on_vehicle * draws[:3], on_bob * draws[3:])
+    gust = decay * memory[:6] + ca.sqrt(1 - decay**2) * draws
+    blowing = ca.vertcat(on_vehicle * gust[:3], on_bob * gust[3:]) + constant
     if not knocks:
-        return ca.Function("gusts", [memory, draws, numbers], [ca.vertcat(gust, memory[6:]), gust + constant])
+        return ca.Function("gusts", [memory, draws, numbers], [ca.vertcat(gust, memory[6:]), blowing])
     clock, moment = memory[6], memory[7]
     ticks = numbers[11]
     moment = ca.if_else(clock < 1, ticks * uniform(draws), moment)
     hit = ca.logic_and(clock <= moment, moment < clock + 1)
     knock = ca.vertcat(numbers[9] * direction(draws[:3]), numbers[10] * direction(draws[3:]))
     following = ca.if_else(clock + 1 < ticks, clock + 1, 0)
-    outputs = [ca.vertcat(gust, following, moment), gust + constant + ca.if_else(hit, knock, 0)]
+    outputs = [ca.vertcat(gust, following, moment), blowing + ca.if_else(hit, knock, 0)]
     return ca.Function("gusts", [memory, draws, numbers], outputs)
 
 

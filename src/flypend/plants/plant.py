@@ -53,7 +53,7 @@ class Wind:
     on_vehicle, on_bob : (3,)
         Constant forces.
     gust_on_vehicle, gust_on_bob : float
-        Standard deviation of a gust per axis; gusts are white noise through a first-order filter.
+        Standard deviation of a gust per axis, from the start on; gusts are white noise through a first-order filter.
     gust_time : float
         Correlation time of a gust, s.
     knock_on_vehicle, knock_on_bob : float

@@ -17,7 +17,7 @@ import numpy as np
 from flypend.compile.record import Field, Record
 from flypend.geometry import E3, Matrix, Numbers, Scalar, Vector, clip, cross, is_symbolic, tangent_part, unit
 from flypend.model import State, Vehicle
-from flypend.model.state import SIZE
+from flypend.model.state import SIZE, centre_velocity
 from flypend.plants import defect_program, defects
 from flypend.plants.cascade import rotation_by
 from flypend.plants.defect_program import Defects
@@ -164,7 +164,7 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float, *, sized: bool = 
     sensors : Sensors
         The sensors.
     vehicle : Vehicle
-        Source of gravity.
+        The vehicle that flies: source of gravity and of the place of its centre of mass.
     period : float
         Control period, s.
     """
@@ -173,7 +173,8 @@ def sensing(sensors: Sensors, vehicle: Vehicle, period: float, *, sized: bool = 
     packed, draws = ca.SX.sym("s", SIZE), ca.SX.sym("n", draws_size(sensors))
     past = remembers.split(memory)
     before, now = State.symbolic(past["state"]), State.symbolic(packed)
-    force = mean_force(before.x_dot, now.x_dot, before.R, now.R, vehicle.g, period)
+    v, v_after = (centre_velocity(state, vehicle.pivot_offset) for state in (before, now))
+    force = mean_force(v, v_after, before.R, now.R, vehicle.g, period)
     chance = {name: draws[some] for name, some in _defect_draws(sensors).items()}
     numbers = defect_program.size_numbers(sensors, period)
     sizes = ca.SX.sym("sizes", len(numbers)) if sized else ca.SX(numbers)

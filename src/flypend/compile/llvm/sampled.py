@@ -8,7 +8,7 @@ from flypend.compile.llvm.emit import define_routine
 from flypend.compile.llvm.loops import Constants, Definition, LoopModule, once, several
 from flypend.compile.llvm.random import PER_TICK, whole_blocks
 from flypend.compile.llvm.target import Target
-from flypend.compile.problem import GUSTS, EquationsProblem, MujocoProblem, SampledProblem
+from flypend.compile.problem import GUST_TICK, GUSTS, EquationsProblem, MujocoProblem, SampledProblem
 from flypend.compile.program import Program
 from flypend.model.state import MAX_STATE, SIZE
 
@@ -80,7 +80,7 @@ def _constants(problem: SampledProblem) -> Constants:
         "STRETCHES": stretches, "TIMING": timings // stretches, "DEPTH": pieces.depth if pieces else 1 + max(ages),
         "PIECES": int(pieces is not None), "AGES": ages, "STEPS": [stretch.steps for stretch in problem.flown],
         "RANDOM": int(problem.random), "FIRST_DRAW": 0 if measured else GUSTS, "END_DRAW": drawn,
-        "DRAWS": max(PER_TICK, whole_blocks(drawn)), "GUSTS": GUSTS,
+        "DRAWS": max(PER_TICK, whole_blocks(drawn)), "GUSTS": GUSTS, "GUST_TICK": GUST_TICK,
         "RATES": int(problem.loop is not None), "MEASURES": int(problem.measure is not None),
         "TOUCHES": int(problem.touch is not None), "MOST_STATE": float(MAX_STATE),
         "KINDS": [KINDS.index(kind) for kind in judged],

@@ -185,6 +185,9 @@ struct Judge {
         peak = accepted ? maximum : peak;
     }
 
+    // Judge the last states of runs that have ended early, which are at no judged time, as those of single runs.
+    INLINE void end(M lanes) { enlarge(lanes, before[GAUGES - 1]); }
+
     // Write the reductions of the run in `lane`, which lasted `seconds`, to `row`.
     INLINE void store(int64_t lane, T seconds, double *row) const {
         int64_t latest = -1;

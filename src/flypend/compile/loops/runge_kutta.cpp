@@ -67,10 +67,11 @@ extern "C" void kernel(
     const bool judged = GAUGES > 0 && reductions;
 
     V t{}, h{}, count{};
+    V goal{};             // s, where a run ends: at `until`, or where its rod touches
     M active = none();    // lanes that have a run
     M rejected = none();  // whose last step was: the next must not grow
     M low = none();       // whose start is where the law is not defined
-    M touched = none();   // whose rod has touched
+    M touched = none();   // whose rod touches at the goal
     int64_t left = W;     // lanes that have a run
     for (int64_t i = 0; i < N; i++) S[i] = K[i] = V{};
     for (int64_t i = 0; i < PARAMETERS; i++) P[i] = V{};
@@ -98,9 +99,11 @@ extern "C" void kernel(
         M fresh = h <= 0;
         stages.start(t, fresh);
         if (judged) judge.start(fresh, t, begin);
+        goal = fresh ? all(until) : goal;
         if (TOUCHES) {
             M there = touch.start(fresh);
             touched = fresh ? there : touched;
+            goal = fresh & there ? t : goal;
         }
         low = none();
         if (GUARDED) {
@@ -130,48 +133,47 @@ extern "C" void kernel(
     start();
     while (left > 0 && !__atomic_load_n(stop, __ATOMIC_RELAXED)) {
         // One attempted step in every lane.
-        M last = t + T(1.0001) * h >= until;
-        V step_h = last ? until - t : h, largest;
+        M last = t + T(1.0001) * h >= goal;
+        V step_h = last ? goal - t : h, largest;
         V error = stages.attempt(t, step_h, rtol, atol, largest);
-        Step step{t, step_h, last ? all(until) : t + step_h};
-        M accepted = (error <= 1) & active, guarded = none();
+        Step step{t, step_h, last ? goal : t + step_h};
+        M accepted = (error <= 1) & active & (t < goal), guarded = none(), cut = none();
         project(Y, Y, drift);
         if (GUARDED) {
             V value;
             margin(&step.t_new, Y, P, &value);
             guarded = accepted & ~(value > 0);
         }
-        accepted &= ~(guarded | low | touched);
+        accepted &= ~(guarded | low);
         M lost = accepted & ~(largest < T(MOST_STATE));
         accepted &= ~lost;
 
         // Look at what lies within the accepted steps.
         if (!USES_END) stages.evaluate(step.t_new, STAGES);  // otherwise f at the end is known, up to projection
         dense.begin();
-        V t_new = step.t_new;
-        M ending = none();
-        if (TOUCHES) ending = touch.take(step, accepted, t_new), touched |= ending;
-        sampler.take(Step{step.t, step.h, t_new}, accepted);
-        if (judged) judge.take(step, accepted, rtol + atol);
-        if (any(ending)) {
-            dense.evaluate(step, t_new);
-            for (int64_t i = 0; i < N; i++) replace(Y[i], ending, state[i]);
+        if (TOUCHES) {  // a step in which the rod touches is taken once more, until there
+            V when;
+            cut = touch.take(step, accepted & ~touched, when);
+            goal = cut ? when : goal;
+            touched |= cut, accepted &= ~cut;
         }
+        sampler.take(step, accepted);
+        if (judged) judge.take(step, accepted, rtol + atol);
 
         // Take them.
         for (int64_t i = 0; i < N; i++) replace(S[i], accepted, Y[i]);
         stages.carry(accepted);
         if (knots && accepted[0]) {
             double *knot = knots + 1 + 4 * int64_t(knots[0]);
-            knot[0] = t_new[0];
+            knot[0] = step.t_new[0];
             for (int64_t i = 0; i < 3; i++) knot[1 + i] = drift[i][0];
             knots[0] += 1;
         }
         count += 1;
-        t = accepted ? t_new : t;
+        t = accepted ? step.t_new : t;
         V factor = growth(error);  // a NaN error shrinks the step by LEAST_FACTOR
         V grown = rejected ? least(factor, all(1)) : factor, shrunk = factor < 1 ? factor : all(LEAST_FACTOR);
-        factor = guarded ? all(T(0.5)) : accepted ? grown : shrunk;
+        factor = guarded ? all(T(0.5)) : cut ? all(1) : accepted ? grown : shrunk;
         rejected = ~accepted;
         h = active ? step.h * factor : step.h;
 
@@ -181,13 +183,13 @@ extern "C" void kernel(
         how = count >= T(max_steps) ? all(TOO_MANY) : how;
         how = stuck ? (guarded ? all(SINGULAR) : all(TOO_SMALL)) : how;
         how = lost ? all(DIVERGED) : how;
-        how = (accepted & (t >= until)) ? all(COMPLETED) : how;
-        how = touched ? all(COLLIDED) : how;
+        how = (t >= goal) ? (touched ? all(COLLIDED) : all(COMPLETED)) : how;
         M at_start = t <= begin;
         if (any(at_start)) how = (at_start & undefined(stages.k(0), N)) ? all(UNDEFINED) : how;
         how = low ? all(SINGULAR) : how;  // the guard says why, also where a rate is not finite
         M over = active & (how >= 0);
         if (any(over)) {
+            if (judged) judge.end(over & (how != all(COMPLETED)));
             for (int64_t lane : Set(over)) {
                 store(lane, how);
                 load(lane);

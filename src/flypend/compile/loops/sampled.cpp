@@ -99,10 +99,12 @@ extern "C" void kernel(
     auto state_at = [&](int64_t tick) WITHIN { return states + (tick & 1) * (1 + length) + 1; };  // after the time
     auto time_at = [&](int64_t tick) WITHIN { return all(T(tick) * T(PERIOD)); };
 
-    auto sample = [&](int64_t tick, V *state) WITHIN {
-        if (!recorded.due(tick)) return;
-        if (recorded.judge_now()) results.add(flights.flying, time_at(tick), state, gains, values);
-        recorded.pass(state, length, first, runs);
+    // The samples of `tick`. Flights that have just `ended` early are judged at their last state, which is that of `end`.
+    auto sample = [&](int64_t tick, V *state, M ended, V end) WITHIN {
+        bool due = recorded.due(tick);
+        M here = ended | (due && recorded.judge_now() ? flights.flying : none());
+        if (any(here)) results.add(here, ended ? end : time_at(tick), state, gains, values);
+        if (due) recorded.pass(state, length, first, runs);
     };
 
     auto begin = [&]() WITHIN {
@@ -115,12 +117,16 @@ extern "C" void kernel(
         }
         computer.begin(state + STATE, estimate);
         for (int64_t i = 0; i < GUST; i++) gust[i] = V{};
+        if (GUST && RANDOM) {
+            normals(seed, U{} + uint64_t(GUST_TICK), FIRST_DRAW, END_DRAW, draws);
+            copy(draws + GUSTS, gust, 6);
+        }
         for (int64_t i = 0; i < 6; i++) wind[i] = V{};
         if (W == 1 && MUJOCO) engine.begin(first, state);
         results.begin();
         flights.begin(last);
         if (TOUCHES) flights.finish(contact.start(every(), state), COLLIDED, V{});
-        sample(0, state);
+        sample(0, state, ~flights.flying, V{});
     };
 
     // Go on from the context: what flies ends later now, and is struck.
@@ -194,8 +200,9 @@ extern "C" void kernel(
         V *state = state_at(begun), *after = state_at(begun + 1);
         for (int64_t tick = begun; tick < ticks && any(flights.flying); tick++) {
             if (__atomic_load_n(stop, __ATOMIC_RELAXED)) break;
+            M flying = flights.flying;
             fly(tick, state, after);
-            sample(tick + 1, after);
+            sample(tick + 1, after, flying & ~flights.flying, time_at(tick));
             V *before = state;
             state = after, after = before;
         }

@@ -169,7 +169,7 @@ def ideal_kernel(
 
 def key_of(problem: Problem, method: str, precision: str) -> str:
     """Return what determines the kernel of `problem`, whatever its width."""
-    return f"ideal {method} {precision} {problem!r}"
+    return f"ideal {method} {precision}, judged to the end, {problem!r}"
 
 
 def compile_ideal(problem: Problem, method: str, precision: str = "double") -> jit.Native:

@@ -121,7 +121,8 @@ def sampled_samples(
     flown = fly(keep_at=ticks)
     code, end = int(flown.code[0]), float(flown.end[0])
     if code != runge_kutta.COMPLETED:  # the end of a run is known once it has been flown
-        last = int(np.floor(end * plant.rate + 1e-6))  # a rod touches between two ticks
+        # A rod touches after one tick, and at the latest at the next.
+        last = max(0, int(np.ceil(end * plant.rate - 1e-6)) - (code == runge_kutta.COLLIDED))
         ticks = np.append(ticks[ticks < last], last)
         flown = fly(keep_at=ticks)
     t, samples = ticks / plant.rate, flown.samples[0]

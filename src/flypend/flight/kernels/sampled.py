@@ -243,7 +243,7 @@ def write_sampled(
     problem: SampledProblem, width: int, target: Target | None = None
 ) -> tuple[str, Callable[[], LoopModule]]:
     """Return the cache key of the kernel of `problem`, `width` flights at a time, and what writes its module."""
-    key = f"sampled, {width} lanes, states below {MAX_STATE}: {problem!r}"
+    key = f"sampled, {width} lanes, judged to the end, states below {MAX_STATE}: {problem!r}"
     return key, lambda: kernel_module(problem, width, target)
 
 
@@ -279,7 +279,7 @@ def sampled_problem(
         timing=timing,
         period=1 / plant.rate,
         random=is_random(plant),
-        sensing=_sensing(loop) if plant.sensors is not None else None,
+        sensing=_sensing(loop, true) if plant.sensors is not None else None,
         touch=touch_of(true, "up", by_rotors=True, floor=plant.floor),
     )
 
@@ -292,14 +292,14 @@ def _begin(loop: Loop) -> Program:
     return lower(ca.Function("begin", inputs, outputs))
 
 
-def _sensing(loop: Loop) -> Sensing:
+def _sensing(loop: Loop, true: Vehicle) -> Sensing:
     sensors, period, state = loop.sampled.sensors, 1 / loop.sampled.rate, ca.SX.sym("s", SIZE)
     draws = ca.SX.sym("n", start_draws(sensors))
     memory = ca.densify(first_memory(sensors, period, state, draws))
     return Sensing(
         begin=lower(ca.Function("sensors_begin", [state, draws], [memory])),
         estimate=lower(first_estimate(sensors)),
-        sense=lower(sensing(sensors, loop.vehicle, period, sized=True)),
+        sense=lower(sensing(sensors, true, period, sized=True)),
         tick=START_TICK,
     )
 

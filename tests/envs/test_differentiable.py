@@ -13,6 +13,7 @@ KINDS = {
     "rotors": {},
     "late": {"randomise": {"mass": (0.9, 1.1), "lag": (0.8, 1.2), "delay": (0.0, 0.02), "wind": (0.0, 0.1)}},
     "rates": {"action": "rates"},
+    "late rates": {"action": "rates", "randomise": {"delay": (0.005, 0.02)}},
     "wrench": {"action": "wrench", "attitude": "6d"},
     "track": {"task": "track"},
 }

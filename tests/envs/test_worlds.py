@@ -51,6 +51,12 @@ def forces_of(actions, vehicle=VEHICLE):
     return low + (high - low) * (actions.astype(float) + 1) / 2
 
 
+def rates_of(actions, vehicle=VEHICLE):
+    """Thrust and body rates of the action "rates"."""
+    actions, most = actions.astype(float), len(vehicle.rotor_spins) * vehicle.rotor_limits[1]
+    return np.hstack([most * (actions[:, :1] + 1) / 2, 12.0 * actions[:, 1:]])
+
+
 def some_actions(steps, count, seed=0, size=0.2):
     """Actions about hover."""
     low, high = VEHICLE.rotor_limits
@@ -507,25 +513,37 @@ def test_wind_pushes():
     assert np.allclose(shift, force / total * 0.1**2 / 2, rtol=0.05)  # the thrust axis turns a little less or more
 
 
-@pytest.mark.parametrize("late", [0.003, 0.01, 0.025])
-def test_a_delayed_command_acts_later(late):
-    """In steps of 1 ms: by the same flight under commands that are moved."""
-    world = World("swing_up", randomise={"delay": (late, late)})
+@pytest.mark.parametrize(("late", "action"), [(0.003, "rotors"), (0.01, "rotors"), (0.025, "rotors"), (0.025, "rates")])
+def test_a_delayed_command_acts_later(late, action):
+    """In steps of 1 ms: by the same flight under commands that are moved. A rate loop follows them without delay."""
+    world = World("swing_up", randomise={"delay": (late, late)}, action=action)
     world.reset(seed=2)
     begin = world.worlds.states[0]
     actions = some_actions(12, 1)[:, 0]
-    for action in actions:
-        world.step(action)
-    by_step = np.repeat(forces_of(actions), 10, axis=0)
+    for each in actions:
+        world.step(each)
+    commands = forces_of(actions) if action == "rotors" else rates_of(actions)
+    first = begin[24:] if action == "rotors" else [VEHICLE.weight, 0, 0, 0]
     ticks = round(1000 * late)
-    moved = np.concatenate([np.tile(begin[24:], (ticks, 1)), by_step])[: len(by_step)]
-    from flypend.plants.equations import EquationsEngine
+    moved = np.concatenate([np.tile(first, (ticks, 1)), np.repeat(commands, 10, axis=0)])[:120]
+    plant = PHYSICS.replace(interface="rates" if action == "rates" else "wrench")
+    flown = from_hover(begin, moved, plant, hold=1)[-1]
+    # Kernels may fuse products and sums of a rate loop.
+    assert np.allclose(world.worlds.states[0], flown, rtol=0, atol=0 if action == "rotors" else 1e-12)
 
-    engine = EquationsEngine(VEHICLE, PHYSICS)
-    engine.reset(begin[:24], begin[24:])
-    for command in moved:
-        engine.step(command, 1e-3, np.zeros(6))
-    assert np.array_equal(world.worlds.states[0], np.append(engine.packed, engine.rotors))
+
+@pytest.mark.parametrize("late", [0.0, 0.02])
+def test_rates_are_tracked_as_simulate_does(late):
+    """A turn of 1 rad/s, which a delay inside the rate loop would make swing."""
+    world = World("swing_up", action="rates", plant=PHYSICS.replace(delay=late))
+    world.reset(seed=3)
+    begin, action = world.worlds.states[0], np.array([-0.5, 1 / 12, 0, 0], dtype=np.float32)
+    for _ in range(40):
+        world.step(action)
+    start, command = fp.State.from_packed(begin[:24]), rates_of(action[None])
+    plant = fp.Plant(rate=100.0, delay=late, interface="rates")
+    flown = replayed(start, np.tile(command, (40, 1)), plant)[-1]
+    assert np.allclose(world.worlds.states[0, 15:18], flown[15:18], rtol=0, atol=1e-2)  # from other rotors
 
 
 def test_a_rod_that_touches_ends_its_world():
@@ -608,6 +626,7 @@ def test_a_rotation_that_a_task_draws_is_one_and_any_is_as_likely():
         ({"task": environment("balance").task, "shape": "circle"}, "shape"),
         ({"task": "track", "size": np.nan}, "size"), ({"task": "track", "turn_rate": "fast"}, "turn_rate"),
         ({"duration": 1e-9}, "duration"), ({"duration": 1e300}, "duration"),
+        ({"action": "rates", "plant": PHYSICS.replace(rate_loop_rate=500.0)}, "plant.rate_loop_rate"),
     ],
 )  # fmt: skip
 def test_what_is_not_possible_is_refused(arguments, field):

@@ -132,7 +132,7 @@ def test_thrust_and_moments_are_those_of_the_environment():
     b, wrench = np.array([0.1, 0.02, -0.03, 0.01]), ca.SX.sym("s", 24)
     law = fp.laws.trained([(np.zeros((4, 24)), b)], action="wrench").bind(VEHICLE)
     own = np.array(ca.Function("w", [wrench], [law.upright(ca.SX(0), wrench)])(START.packed())).ravel()
-    forces = np.array(Parts(environment("balance", action="wrench")).asked()(b)).ravel()
+    forces = np.array(Parts(environment("balance", action="wrench")).command()(b)).ravel()
     assert np.allclose(VEHICLE.mixing() @ forces, own, rtol=0, atol=1e-12)
 
 

@@ -21,6 +21,7 @@ from flypend.envs.problem import Environment, Parts
 from flypend.errors import InputError
 from flypend.geometry import clip
 from flypend.model.state import SIZE
+from flypend.plants.actuation import OMEGA
 from flypend.plants.plant import check_seed
 
 
@@ -204,19 +205,17 @@ def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
     memory, action = ca.MX.sym("memory", sum(lengths)), ca.MX.sym("action", env.actions)
     before = ca.vertsplit(memory, [0, *np.cumsum(lengths).tolist()])
     clock, state, rotors, acted, queue, wind, timing, numbers, delay, goal = before
-    command, step = parts.command(), parts.step()
-    joined = _scalar("joined", [SIZE, env.rotors], lambda *vectors: [ca.vertcat(*vectors)])
+    rates, step = env.action == "rates", parts.step()
     asked = chain.call(_scalar("asked", [env.actions], lambda a: [clip(a, -1.0, 1.0)]), action)
-    inner = env.action == "rates"
+    command = chain.call(parts.command(), asked)
     for i in range(env.steps):
-        if inner or i == 0:
-            forces = chain.call(command, chain.call(joined, state, rotors), asked, numbers)
-        held = chain.call(_hold(env, parts.queued), ca.MX(i), forces, queue, delay) if parts.queued else forces
-        state, rotors = chain.call(step, state, rotors, held, wind, timing, numbers)
+        held = chain.call(_hold(parts), ca.MX(i), command, queue, delay) if parts.queued else command
+        forces = chain.call(_follow_rates(parts), held, state) if rates else held
+        state, rotors = chain.call(step, state, rotors, forces, wind, timing, numbers)
     if parts.queued:
-        sizes = [env.rotors, queue.numel()]
+        sizes = [parts.width, queue.numel()]
         queue = chain.call(
-            _scalar("queued", sizes, lambda new, old: [ca.vertcat(new, old[: -env.rotors])]), forces, queue
+            _scalar("queued", sizes, lambda new, old: [ca.vertcat(new, old[: -parts.width])]), command, queue
         )
     clock = chain.call(_scalar("ticked", [1], lambda clock: [clock + 1]), clock)
     rest = [queue, wind, timing, numbers, delay, goal]
@@ -242,17 +241,24 @@ def _scalar(name: str, lengths: Sequence[int], made: Callable[..., list[Any]]) -
     return ca.Function(name, vectors, list(map(ca.densify, made(*vectors))))
 
 
-def _hold(env: Environment, queued: int) -> ca.Function:
+def _hold(parts: Parts) -> ca.Function:
     """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
+    width, queued, steps = parts.width, parts.queued, parts.env.steps
 
     def held(*given: Any) -> list[Any]:
         step, acting, queue, delay = given
         for age in range(queued):
-            earlier = queue[age * env.rotors : (age + 1) * env.rotors]
-            acting = ca.if_else(delay - step > age * env.steps, earlier, acting)
+            earlier = queue[age * width : (age + 1) * width]
+            acting = ca.if_else(delay - step > age * steps, earlier, acting)
         return [acting]
 
-    return _scalar("held", [1, env.rotors, queued * env.rotors, 1], held)
+    return _scalar("held", [1, width, queued * width, 1], held)
+
+
+def _follow_rates(parts: Parts) -> ca.Function:
+    """(command, state) → rotor forces, by the rate loop."""
+    loop = parts.loop()
+    return _scalar("rate_loop", [parts.width, SIZE], lambda command, state: [loop(command, state[OMEGA], ca.SX(0, 1))])
 
 
 def _observe(parts: Parts, lengths: Sequence[int]) -> ca.Function:

@@ -50,7 +50,7 @@ class Environment:
     action : "rotors", "wrench" or "rates"
         What an action commands; each of its numbers is in [−1, 1]. "rotors": the forces of the rotors, from their
         minimum to their maximum. "wrench": thrust, from zero to the maximum, and moments, allocated within the limits.
-        "rates": thrust and body rates up to 12 rad/s, tracked by the plant's inner loop.
+        "rates": thrust and body rates up to 12 rad/s, tracked by the plant's rate loop before every step.
     attitude : "matrix", "6d" or "body"
         How the attitude is observed. "matrix": all columns of R. "6d": the first two. "body": only the vertical, with
         all vectors in the body frame, so that a policy need not learn that the heading makes no difference.
@@ -67,9 +67,9 @@ class Environment:
     Raises
     ------
     InputError
-        If the rates do not match, the duration is shorter than an action, a delay is too long, the task does not begin
-        on the vehicle's mount, or the plant has something that worlds do not have: noise, sensors of its own, gusts,
-        MuJoCo.
+        If the rates do not match, that of the rate loop included, the duration is shorter than an action, a delay is
+        too long, the task does not begin on the vehicle's mount, or the plant has something that worlds do not have:
+        noise, sensors of its own, gusts, MuJoCo.
     """
 
     task: Task
@@ -104,6 +104,9 @@ class Environment:
         if plant.engine != "equations" or any(part is not None for part in (plant.noise, plant.sensors, plant.wind)):
             wanted = "one by our equations, without noise and wind; sensors are an argument of their own"
             raise InputError("plant", wanted, repr(plant))
+        if self.action == "rates" and plant.rate_loop_rate != plant.rate:
+            wanted = f"the plant's rate, {plant.rate:g} Hz: the loop runs before every step of the motion"
+            raise InputError("plant.rate_loop_rate", wanted, f"{plant.rate_loop_rate:g}")
 
     @property
     def steps(self) -> int:
@@ -130,11 +133,12 @@ def problem(env: Environment) -> WorldsProblem:
     """Return the programs of `env`."""
     parts = Parts(env)
     return WorldsProblem(
-        begin=lower(parts.begin()), command=lower(parts.command()), inner=env.action == "rates",
+        begin=lower(parts.begin()), command=lower(parts.command()),
+        loop=lower(parts.loop()) if env.action == "rates" else None,
         step=lower(parts.step()), observe=lower(parts.observe()), judge=lower(parts.judge()),
         queued=parts.queued, steps=env.steps, length=1 / env.plant.rate,
         touch=touch_of(env.vehicle, "up", by_rotors=True, floor=env.plant.floor),
-        estimating=None if parts.estimates is None else parts.estimates.programs(parts.asked()),
+        estimating=None if parts.estimates is None else parts.estimates.programs(parts.command(), parts.idle),
     )  # fmt: skip
 
 
@@ -151,7 +155,8 @@ class Parts:
         n, latest = env.rotors, env.plant.delay + env.randomise.delay[1]
         self.queued = int(np.ceil(latest * env.rate - 1e-9))
         self.timing, self.numbers = timing_size(env.plant), 3 + n if env.randomise.varies else 0
-        self.lengths = [SIZE, n, env.actions, self.queued * n, 6, self.timing, self.numbers, 1]
+        self.width = 4 if env.action == "rates" else n  # of a command
+        self.lengths = [SIZE, n, env.actions, self.queued * self.width, 6, self.timing, self.numbers, 1]
         self.estimates = None if env.sensors is None else Estimates(env.vehicle, self._computer())
 
     def _computer(self) -> Sampled:
@@ -178,7 +183,7 @@ class Parts:
         wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
         delay = (env.plant.delay + draws.between(*env.randomise.delay)) * env.plant.rate
         memory = ca.vertcat(
-            state.packed(), hover, asked, *[hover] * self.queued, wind, ca.SX(3, 1),
+            state.packed(), hover, asked, *[self.idle(hover)] * self.queued, wind, ca.SX(3, 1),
             self._timing(draws), numbers, ca.floor(delay + 0.5), goal,
         )  # fmt: skip
         self.goals = goal.numel()
@@ -191,18 +196,17 @@ class Parts:
             return ca.DM(motor_timing(self.true.rotor_lag, env.plant, h))
         return motor_timing(draws.between(*env.randomise.lag) * self.true.rotor_lag, env.plant, h, symbolic_timing)
 
-    def command(self) -> ca.Function:
-        """(state with rotors, action, numbers) → rotor forces."""
-        env, vehicle = self.env, self.env.vehicle
-        s, a, p = _symbols(s=SIZE + env.rotors, a=env.actions, p=self.numbers)
-        forces = self.asked()(a)
-        if env.action == "rates":
-            loop = rate_loop(vehicle, env.plant.limits, env.plant.rate_loop_gain, name="loop")
-            forces = loop(forces, s[15:18], ca.SX(0, 1))
-        return ca.Function("command", [s, a, p], [ca.densify(forces)])
+    def idle(self, rotors: Any) -> Any:
+        """Return the command before the first action, which keeps level `rotors` (n,), N, as they are."""
+        return ca.vertcat(ca.sum1(rotors), ca.DM.zeros(3)) if self.env.action == "rates" else rotors
 
-    def asked(self) -> ca.Function:
-        """(action) → rotor forces (n,), or thrust and body rates (4,) for the inner loop."""
+    def loop(self) -> ca.Function:
+        """(command, omega, –) → rotor forces: the rate loop, which knows the nominal vehicle."""
+        plant = self.env.plant
+        return rate_loop(self.env.vehicle, plant.limits, plant.rate_loop_gain, name="rate_loop")
+
+    def command(self) -> ca.Function:
+        """(action) → rotor forces (n,), or thrust and body rates (4,) for the rate loop."""
         env, vehicle, a = self.env, self.env.vehicle, ca.SX.sym("a", self.env.actions)
         if env.action == "rotors":
             command = rotor_action(a, vehicle)
@@ -211,7 +215,7 @@ class Parts:
         else:
             thrust, moment = thrust_action(a[0], vehicle), moment_action(a[1:], vehicle)
             command = rotor_forces(thrust, moment, vehicle, env.plant.limits)
-        return ca.Function("asked", [a], [ca.densify(command)])
+        return ca.Function("command", [a], [ca.densify(command)])
 
     def step(self) -> ca.Function:
         """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""

@@ -22,8 +22,10 @@ from flypend.envs.make import PHYSICS
 from flypend.envs.make import TASKS as BUILT_IN
 from flypend.flight.tasks import touches
 from flypend.laws import Controller
+from flypend.model.rod import stretch
 
 VEHICLE = fp.vehicle("hehn2011")
+AT_ONCE = PHYSICS.replace(lag=0.0)  # rotors that begin with the hover of another vehicle soon do the same
 OMNIDRONES = [make() for make in omnidrones_tasks.TASKS.values()]
 TASKS = [*BUILT_IN, *OMNIDRONES]
 NAMES = [getattr(task, "name", None) or task.title().replace("_", "") for task in TASKS]
@@ -91,6 +93,51 @@ def test_a_world_ends_on_its_floor():
         world.reset(seed=5)
         ends[floor] = any(world.step(np.full(4, -1, dtype=np.float32))[2] for _ in range(20))
     assert ends == {None: False, -0.8: True}
+
+
+@pytest.mark.parametrize("drawn", [True, False])
+def test_the_rod_that_flies_lands(drawn):
+    """A rod of 0.85 m instead of 0.565 m reaches a floor 0.8 m below, and a task sees its end there."""
+    task, plant = replace(BUILT_IN["swing_up"](), shown=lambda now: now.end), PHYSICS.replace(floor=-0.8)
+    known = World(task, plant=plant)
+    if drawn:
+        other = World(task, plant=plant, randomise={"rod_length": (1.5, 1.5)})
+    else:
+        other = World(task, plant=plant.replace(mismatch={"rod_length": 1.5}))
+    known.reset(seed=5)
+    seen, _ = other.reset(seed=5)
+    state = other.worlds.states[0]
+    assert np.allclose(seen[-3:], state[:3] + 1.5 * VEHICLE.reach * state[18:21], atol=1e-6)
+    assert not known.step(np.zeros(4))[2]
+    assert other.step(np.zeros(4))[2]
+
+
+@pytest.mark.parametrize(
+    ("task", "mount", "drawn", "written"),
+    [
+        ("catch_in_cup", "cup", {"randomise": {"bob_mass": (1.3, 1.3), "rod_length": (1.5, 1.5)}},
+         {"bob_mass": 1.3 * VEHICLE.bob_mass, "rod_length": 1.5 * VEHICLE.rod_length}),
+        ("swing_up", "hub", {"plant": AT_ONCE.replace(pivot_offset=(0, 0, 0.05))}, {"pivot_offset": (0, 0, 0.05)}),
+    ],
+    ids=["cup", "hub"],
+)  # fmt: skip
+def test_a_rod_touches_the_vehicle_that_flies(task, mount, drawn, written):
+    """The same ends as those of a vehicle that is written so; others than those of the nominal one."""
+    worlds = [
+        VectorWorlds(
+            task, 400, mount=mount, autoreset_mode="NextStep", vehicle=vehicle, **({"plant": AT_ONCE} | arguments)
+        )
+        for vehicle, arguments in ((VEHICLE, drawn), (VEHICLE.replace(**written), {}), (VEHICLE, {}))
+    ]
+    for each in worlds:
+        each.reset(seed=0)
+    rng, ends = np.random.default_rng(1), np.zeros((3, 400), dtype=int)
+    for k in range(80):
+        action = rng.uniform(-1, 0.6, (400, 4))
+        over = np.array([each.step(action)[2] for each in worlds])
+        ends[over & (ends == 0)] = k + 1
+    assert np.array_equal(ends[0], ends[1])
+    assert (ends[0] != ends[2]).sum() > 10
 
 
 @pytest.mark.parametrize("task", OMNIDRONES, ids=lambda task: task.name)
@@ -452,6 +499,20 @@ def test_another_vehicle_flies_as_one_that_is_mistaken(number):
     for action in some_actions(20, 1)[:, 0]:
         drawn.step(action)
         known.step(action)
+    assert np.allclose(drawn.worlds.states, known.worlds.states, rtol=0, atol=1e-11)
+
+
+def test_a_spinning_rod_is_that_of_another_vehicle():
+    """Its moments of inertia scale with its mass and the square of its length."""
+    spins = VEHICLE.replace(rod_inertia=3e-3, rod_spin_inertia=1e-4, rod_spin=30.0)
+    drawn = World(
+        "swing_up", plant=AT_ONCE, vehicle=spins, randomise={"bob_mass": (0.8,) * 2, "rod_length": (1.3,) * 2}
+    )
+    known = World("swing_up", plant=AT_ONCE, vehicle=spins.replace(**stretch(spins, 0.8, 1.3)))
+    for world in (drawn, known):
+        world.reset(seed=1)
+        for action in some_actions(20, 1)[:, 0]:
+            world.step(action)
     assert np.allclose(drawn.worlds.states, known.worlds.states, rtol=0, atol=1e-11)
 
 

@@ -27,7 +27,8 @@ class Touch:
     Parameters
     ----------
     room : Program
-        (state before, state after, seconds in between) → a lower bound of the distances in between.
+        (state before, state after, seconds in between) → a lower bound of the distances in between. The state before
+        is also followed by the numbers of the vehicle, if they are inputs, as in `WorldsProblem`.
     touching : Program
         (before, after, seconds) → (least distance, share of the interval until the rod touches, part); the share is > 1
         if it does not.

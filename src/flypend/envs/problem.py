@@ -132,12 +132,13 @@ class Environment:
 def problem(env: Environment) -> WorldsProblem:
     """Return the programs of `env`."""
     parts = Parts(env)
+    numbers = ca.SX.sym("p", parts.numbers)
     return WorldsProblem(
         begin=lower(parts.begin()), command=lower(parts.command()),
         loop=lower(parts.loop()) if env.action == "rates" else None,
         step=lower(parts.step()), observe=lower(parts.observe()), judge=lower(parts.judge()),
         queued=parts.queued, steps=env.steps, length=1 / env.plant.rate,
-        touch=touch_of(env.vehicle, "up", by_rotors=True, floor=env.plant.floor),
+        touch=touch_of(parts.machine(numbers), "up", by_rotors=True, floor=env.plant.floor, numbers=numbers),
         estimating=None if parts.estimates is None else parts.estimates.programs(parts.command(), parts.idle),
     )  # fmt: skip
 
@@ -168,10 +169,14 @@ class Parts:
             rate_loop_gain=plant.rate_loop_gain,
         )  # fmt: skip
 
+    def machine(self, numbers: Any) -> Any:
+        """Return the vehicle that flies, whose `numbers` differ from world to world."""
+        return Varied(self.true, numbers) if self.numbers else self.true
+
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        (low, high), begun = env.vehicle.rotor_limits, env.task.ask("begin", draws, env.vehicle)
+        (low, high), begun = env.vehicle.rotor_limits, env.task.ask("begin", draws, self.true)
         if not (isinstance(begun, tuple) and len(begun) == 2 and isinstance(begun[0], State)):
             raise InputError("task.begin", "a Begin: a State and the numbers of the goal", f"a {type(begun).__name__}")
         state, goal = begun
@@ -221,8 +226,8 @@ class Parts:
         """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""
         env, n = self.env, self.env.rotors
         s, r, u, w, h, p = _symbols(s=SIZE, r=n, u=n, w=6, h=self.timing, p=self.numbers)
-        vehicle: Any = Varied(self.true, p) if self.numbers else self.true
-        plant, commanded = motion_parts(env.plant), p[3:] * u if self.numbers else u
+        vehicle, plant = self.machine(p), motion_parts(env.plant)
+        commanded = p[3:] * u if self.numbers else u
         settled = settle_forces(commanded, vehicle.rotor_limits[1], plant.strength, plant.sag)
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, settled, wind, h, vehicle, plant))
@@ -244,7 +249,7 @@ class Parts:
         x, x_dot = env.task.ask("goal", t, numbers, rows=3)
         error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
         change = ca.SX.zeros(env.actions) if action is None else action - parts[2]
-        reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
+        reach = self.machine(parts[6]).reach
         now = Moment(
             time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change,
             end=state.x + reach * state.y, end_dot=state.x_dot + reach * state.y_dot, goal=numbers,

@@ -51,7 +51,7 @@ def _constants(problem: WorldsProblem) -> Constants:
         "COMMAND": len(problem.command.outputs[0]), "OBSERVED": len(problem.observe.outputs[0]),
         "UNIFORMS": whole_blocks(problem.begin.inputs[0]), "MEMORY": places["end"], "STEPS": problem.steps,
         "QUEUED": problem.queued, "LENGTH": problem.length, "RATES": int(problem.loop is not None),
-        "TOUCHES": int(problem.touch is not None), "SENSES": int(own is not None),
+        "NUMBERS": problem.step.inputs[5], "TOUCHES": int(problem.touch is not None), "SENSES": int(own is not None),
         "START_TICK": own.tick if own else 0, "START_DRAWS": whole_blocks(own.first.inputs[1]) if own else 0,
         "DRAWS": whole_blocks(own.sense.inputs[3]) if own else 0, "BOUND": BOUND,
     }  # fmt: skip

@@ -19,7 +19,8 @@ static INLINE U whole(V number) { return (U)__builtin_convertvector(number, L); 
 extern "C" void kernel(
     V *memories, const L *seeds, const float *actions, float *observations, float *rewards, bool *terminated,
     bool *truncated, float *last, int64_t first, int64_t count, int64_t limit, int64_t fresh) {
-    V action[ACTIONS], observed[OBSERVED], given[COMMAND], held[COMMAND], forces[ROTORS], before[STATE + ROTORS];
+    V action[ACTIONS], observed[OBSERVED], given[COMMAND], held[COMMAND], forces[ROTORS];
+    V before[STATE + ROTORS + NUMBERS];
     V draws[UNIFORMS], begun[MEMORY], start_draws[some(START_DRAWS)], noise[some(DRAWS)];
     V *clock, *episode, *memory, *state, *rotors;
     U seed;
@@ -75,6 +76,7 @@ extern "C" void kernel(
         V *queue = memory + AT_QUEUE, share;
         const V *wanted = RATES ? forces : held;
         command(action, given);
+        if (TOUCHES) copy(memory + AT_NUMBERS, before + STATE + ROTORS, NUMBERS);
         for (int64_t i = 0; i < STEPS; i++) {
             hold(i);
             if (RATES) rate_loop(held, state + OMEGA, nullptr, forces);

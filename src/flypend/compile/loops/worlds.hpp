@@ -8,6 +8,7 @@ extern "C" {
 // Lengths.
 extern const int64_t STATE, ROTORS;  // of the state, and of the rotor forces that follow it
 extern const int64_t ACTIONS, COMMAND, OBSERVED;
+extern const int64_t NUMBERS;        // of the vehicle
 extern const int64_t UNIFORMS;       // of the random numbers of a beginning
 extern const int64_t MEMORY;         // of a world
 

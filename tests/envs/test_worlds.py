@@ -20,6 +20,7 @@ from flypend.envs.draws import Draws
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
 from flypend.envs.make import TASKS as BUILT_IN
+from flypend.envs.task import Begin
 from flypend.flight.tasks import touches
 from flypend.laws import Controller
 from flypend.model.rod import stretch
@@ -722,6 +723,18 @@ def test_a_task_that_answers_something_else_is_refused(name, function):
     with pytest.raises(fp.InputError) as refused:
         World(replace(balance(), **{name: function}))
     assert refused.value.field == f"task.{name}"
+
+
+@pytest.mark.parametrize("goal", [[1.0, 2.0], np.array([1.0, 2.0]), ca.DM([1.0, 2.0])])
+def test_a_beginning_may_draw_some_parts_and_give_the_others(goal):
+    begin = lambda draws, vehicle: Begin(fp.State(x=draws.ball(1.0), y=(0, 0, 1)), goal)  # noqa: E731
+    worlds = VectorWorlds(replace(balance(), begin=begin), 20)
+    worlds.reset(seed=0)
+    begun = fp.State.from_packed(worlds.worlds.states[:, :24])
+    assert 0.5 < np.linalg.norm(begun.x, axis=1).max() <= 1
+    assert np.array_equal(begun.y, np.tile([0, 0, 1], (20, 1)))
+    assert np.array_equal(begun.R, np.tile(np.eye(3), (20, 1, 1)))
+    assert np.array_equal(worlds.worlds.goals, np.tile([1, 2], (20, 1)))
 
 
 def test_a_task_may_bring_any_argument_of_its_environments():

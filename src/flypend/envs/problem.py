@@ -179,7 +179,7 @@ class Parts:
         (low, high), begun = env.vehicle.rotor_limits, env.task.ask("begin", draws, self.true)
         if not (isinstance(begun, tuple) and len(begun) == 2 and isinstance(begun[0], State)):
             raise InputError("task.begin", "a Begin: a State and the numbers of the goal", f"a {type(begun).__name__}")
-        state, goal = begun
+        state, goal = begun[0], ca.SX(begun[1])
         hover = ca.DM(np.full(n, np.clip(env.vehicle.weight / n, low, high)))
         asked = ca.vertcat(2 * ca.sum1(hover) / (n * high) - 1, ca.DM.zeros(3))  # the action that commands it
         if env.action == "rotors":

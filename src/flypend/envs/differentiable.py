@@ -114,6 +114,7 @@ class DifferentiableWorlds:
     def torch(self, memory: Any, actions: Any) -> Stepped:
         """`step` for tensors of PyTorch on the CPU, with autograd; observations and rewards are of the actions' type.
 
+        There are first derivatives only: with `create_graph=True` the gradient raises InputError.
         `memory` is a tensor of float64, such as `torch.from_numpy` makes of that of `begin`.
         """
         return Stepped(*_torch_step().apply(self, memory, actions))
@@ -305,6 +306,8 @@ def _torch_step() -> Any:
 
         @staticmethod
         def backward(ctx: Any, *gradients: Any) -> Any:
+            if torch.is_grad_enabled():  # else what a second derivative lacks would count as 0
+                raise InputError("create_graph", "False: worlds have first derivatives only", "True")
             memory, actions = ctx.saved_tensors
             given = [gradient.numpy() for gradient in gradients[:3]]
             found = ctx.worlds.pullback(memory.detach().numpy(), actions.detach().numpy(), *given)

@@ -765,7 +765,7 @@ def test_a_number_beyond_single_precision_is_infinite():
     assert worlds.step([[0, 0, 0, 0], [0, 1e300, 0, 0]])[2].tolist() == [False, True]
 
 
-@pytest.mark.parametrize("seed", [-1, 2**70, 1.5, "a", [1, 2], [1, -2, 3], [1, 2, 2**64]])
+@pytest.mark.parametrize("seed", [-1, 2**70, 1.5, "a", np.array(3), [1, 2], [1, -2, 3], [1, 2, 2**64]])
 def test_a_seed_is_an_integer_or_one_for_each_world(seed):
     with pytest.raises(fp.InputError, match=r"^seed: "):
         VectorWorlds("balance", 3).reset(seed=seed)

@@ -22,7 +22,7 @@ from flypend.errors import InputError
 from flypend.geometry import clip
 from flypend.model.state import SIZE
 from flypend.plants.actuation import OMEGA
-from flypend.plants.plant import check_seed
+from flypend.plants.plant import are_seeds, check_seed
 
 
 class Stepped(NamedTuple):
@@ -77,7 +77,7 @@ class DifferentiableWorlds:
 
         They are those of `VectorWorlds` with these seeds. Raises InputError unless these are integers from 0.
         """
-        if not isinstance(seeds, list | tuple | range | np.ndarray) or len(seeds) == 0:
+        if not are_seeds(seeds) or len(seeds) == 0:
             raise InputError("seeds", "a sequence of integers", repr(seeds)[:80])
         for seed in seeds:
             check_seed("seeds", seed)

@@ -30,6 +30,13 @@ class InputError(ValueError):
         return (InputError, (self.field, self.expected, str(self.got)))
 
 
+def _as_floats(value: Any) -> Any:
+    """Return `value` as an array of floats; complex numbers raise TypeError, where NumPy would only warn."""
+    if isinstance(value, np.ndarray | np.generic | list | tuple) and np.iscomplexobj(value):
+        raise TypeError
+    return np.array(value, dtype=float)
+
+
 def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool = False) -> Any:
     """Convert `value` to a finite float array of `shape` (None: any length); `batch` allows leading batch axes.
 
@@ -37,7 +44,7 @@ def array(field: str, value: Any, shape: tuple[int | None, ...], *, batch: bool 
     """
     wanted = "(" + ", ".join("n" if n is None else str(n) for n in shape) + ")"
     try:
-        result = np.array(value, dtype=float)
+        result = _as_floats(value)
     except (TypeError, ValueError, OverflowError):
         raise InputError(field, f"numbers of shape {wanted}", repr(value)[:80]) from None
     trailing = result.shape[result.ndim - len(shape) :]

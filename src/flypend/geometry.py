@@ -27,6 +27,7 @@ Numbers = Any
 E1 = np.array([1.0, 0.0, 0.0])
 E2 = np.array([0.0, 1.0, 0.0])
 E3 = np.array([0.0, 0.0, 1.0])
+LEAST_SQUARE = 1e-30  # its root is roundoff beside 1
 
 
 def is_symbolic(value: Any) -> bool:
@@ -88,6 +89,11 @@ def norm(a: Vector) -> Scalar:
 def smooth_norm(a: Vector, floor: float) -> Scalar:
     """√(|a|² + floor²): the length of `a`, differentiable everywhere for floor > 0 and never below `floor`."""
     return _sqrt(dot(a, a) + floor**2)
+
+
+def differentiable_root(square: Scalar) -> Scalar:
+    """√`square` for a number ≥ 0, in CasADi, with a derivative also at 0: it is flat below `LEAST_SQUARE`."""
+    return ca.sqrt(ca.fmax(square, LEAST_SQUARE))
 
 
 def scale(s: Scalar, v: Vector) -> Vector:

@@ -281,6 +281,14 @@ def test_torch_differentiates_a_flight():
     assert bool((policy.weight.grad != 0).any())
 
 
+def test_torch_refuses_second_derivatives():
+    worlds = flypend.envs.DifferentiableWorlds("balance")
+    begun, _ = map(torch.from_numpy, worlds.begin(range(3)))
+    actions = torch.full((3, 4), 0.1, dtype=torch.float64, requires_grad=True)
+    with pytest.raises(fp.InputError, match=r"^create_graph: "):
+        torch.autograd.grad(worlds.torch(begun, actions).rewards.sum(), actions, create_graph=True)
+
+
 def test_the_example_learns_by_the_gradient():
     """In forty updates the cost of flights from other starts falls by more than a quarter: to 0.64 when measured."""
     worlds = flypend.envs.DifferentiableWorlds("balance", rate=gradient.RATE, observe="state")

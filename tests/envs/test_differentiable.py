@@ -13,6 +13,7 @@ KINDS = {
     "rotors": {},
     "late": {"randomise": {"mass": (0.9, 1.1), "lag": (0.8, 1.2), "delay": (0.0, 0.02), "wind": (0.0, 0.1)}},
     "rates": {"action": "rates"},
+    "late rates": {"action": "rates", "randomise": {"delay": (0.005, 0.02)}},
     "wrench": {"action": "wrench", "attitude": "6d"},
     "track": {"task": "track"},
 }
@@ -164,7 +165,7 @@ def test_rows_of_another_shape_are_refused(memory, actions, field):
         worlds.step(given, np.zeros(actions))
 
 
-@pytest.mark.parametrize("seeds", [[-1], [1.5], [], 3, [2**63]])
+@pytest.mark.parametrize("seeds", [[-1], [1.5], [], 3, np.array(3), [2**63]])
 def test_a_seed_that_is_none_is_refused(seeds):
     with pytest.raises(fp.InputError, match=r"^seeds: "):
         DifferentiableWorlds("balance").begin(seeds)

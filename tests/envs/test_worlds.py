@@ -20,10 +20,13 @@ from flypend.envs.draws import Draws
 from flypend.envs.kernel import Worlds
 from flypend.envs.make import PHYSICS
 from flypend.envs.make import TASKS as BUILT_IN
+from flypend.envs.task import Begin
 from flypend.flight.tasks import touches
 from flypend.laws import Controller
+from flypend.model.rod import stretch
 
 VEHICLE = fp.vehicle("hehn2011")
+AT_ONCE = PHYSICS.replace(lag=0.0)  # rotors that begin with the hover of another vehicle soon do the same
 OMNIDRONES = [make() for make in omnidrones_tasks.TASKS.values()]
 TASKS = [*BUILT_IN, *OMNIDRONES]
 NAMES = [getattr(task, "name", None) or task.title().replace("_", "") for task in TASKS]
@@ -49,6 +52,12 @@ def replayed(start, commands, plant, vehicle=VEHICLE, hold=1):
 def forces_of(actions, vehicle=VEHICLE):
     low, high = vehicle.rotor_limits
     return low + (high - low) * (actions.astype(float) + 1) / 2
+
+
+def rates_of(actions, vehicle=VEHICLE):
+    """Thrust and body rates of the action "rates"."""
+    actions, most = actions.astype(float), len(vehicle.rotor_spins) * vehicle.rotor_limits[1]
+    return np.hstack([most * (actions[:, :1] + 1) / 2, 12.0 * actions[:, 1:]])
 
 
 def some_actions(steps, count, seed=0, size=0.2):
@@ -85,6 +94,51 @@ def test_a_world_ends_on_its_floor():
         world.reset(seed=5)
         ends[floor] = any(world.step(np.full(4, -1, dtype=np.float32))[2] for _ in range(20))
     assert ends == {None: False, -0.8: True}
+
+
+@pytest.mark.parametrize("drawn", [True, False])
+def test_the_rod_that_flies_lands(drawn):
+    """A rod of 0.85 m instead of 0.565 m reaches a floor 0.8 m below, and a task sees its end there."""
+    task, plant = replace(BUILT_IN["swing_up"](), shown=lambda now: now.end), PHYSICS.replace(floor=-0.8)
+    known = World(task, plant=plant)
+    if drawn:
+        other = World(task, plant=plant, randomise={"rod_length": (1.5, 1.5)})
+    else:
+        other = World(task, plant=plant.replace(mismatch={"rod_length": 1.5}))
+    known.reset(seed=5)
+    seen, _ = other.reset(seed=5)
+    state = other.worlds.states[0]
+    assert np.allclose(seen[-3:], state[:3] + 1.5 * VEHICLE.reach * state[18:21], atol=1e-6)
+    assert not known.step(np.zeros(4))[2]
+    assert other.step(np.zeros(4))[2]
+
+
+@pytest.mark.parametrize(
+    ("task", "mount", "drawn", "written"),
+    [
+        ("catch_in_cup", "cup", {"randomise": {"bob_mass": (1.3, 1.3), "rod_length": (1.5, 1.5)}},
+         {"bob_mass": 1.3 * VEHICLE.bob_mass, "rod_length": 1.5 * VEHICLE.rod_length}),
+        ("swing_up", "hub", {"plant": AT_ONCE.replace(pivot_offset=(0, 0, 0.05))}, {"pivot_offset": (0, 0, 0.05)}),
+    ],
+    ids=["cup", "hub"],
+)  # fmt: skip
+def test_a_rod_touches_the_vehicle_that_flies(task, mount, drawn, written):
+    """The same ends as those of a vehicle that is written so; others than those of the nominal one."""
+    worlds = [
+        VectorWorlds(
+            task, 400, mount=mount, autoreset_mode="NextStep", vehicle=vehicle, **({"plant": AT_ONCE} | arguments)
+        )
+        for vehicle, arguments in ((VEHICLE, drawn), (VEHICLE.replace(**written), {}), (VEHICLE, {}))
+    ]
+    for each in worlds:
+        each.reset(seed=0)
+    rng, ends = np.random.default_rng(1), np.zeros((3, 400), dtype=int)
+    for k in range(80):
+        action = rng.uniform(-1, 0.6, (400, 4))
+        over = np.array([each.step(action)[2] for each in worlds])
+        ends[over & (ends == 0)] = k + 1
+    assert np.array_equal(ends[0], ends[1])
+    assert (ends[0] != ends[2]).sum() > 10
 
 
 @pytest.mark.parametrize("task", OMNIDRONES, ids=lambda task: task.name)
@@ -449,6 +503,20 @@ def test_another_vehicle_flies_as_one_that_is_mistaken(number):
     assert np.allclose(drawn.worlds.states, known.worlds.states, rtol=0, atol=1e-11)
 
 
+def test_a_spinning_rod_is_that_of_another_vehicle():
+    """Its moments of inertia scale with its mass and the square of its length."""
+    spins = VEHICLE.replace(rod_inertia=3e-3, rod_spin_inertia=1e-4, rod_spin=30.0)
+    drawn = World(
+        "swing_up", plant=AT_ONCE, vehicle=spins, randomise={"bob_mass": (0.8,) * 2, "rod_length": (1.3,) * 2}
+    )
+    known = World("swing_up", plant=AT_ONCE, vehicle=spins.replace(**stretch(spins, 0.8, 1.3)))
+    for world in (drawn, known):
+        world.reset(seed=1)
+        for action in some_actions(20, 1)[:, 0]:
+            world.step(action)
+    assert np.allclose(drawn.worlds.states, known.worlds.states, rtol=0, atol=1e-11)
+
+
 def test_lag_and_strength_and_wind_are_those_drawn():
     slow, known = World("swing_up", randomise={"lag": (2, 2)}), World("swing_up", plant=PHYSICS.replace(lag=0.04))
     for world in (slow, known):
@@ -507,25 +575,37 @@ def test_wind_pushes():
     assert np.allclose(shift, force / total * 0.1**2 / 2, rtol=0.05)  # the thrust axis turns a little less or more
 
 
-@pytest.mark.parametrize("late", [0.003, 0.01, 0.025])
-def test_a_delayed_command_acts_later(late):
-    """In steps of 1 ms: by the same flight under commands that are moved."""
-    world = World("swing_up", randomise={"delay": (late, late)})
+@pytest.mark.parametrize(("late", "action"), [(0.003, "rotors"), (0.01, "rotors"), (0.025, "rotors"), (0.025, "rates")])
+def test_a_delayed_command_acts_later(late, action):
+    """In steps of 1 ms: by the same flight under commands that are moved. A rate loop follows them without delay."""
+    world = World("swing_up", randomise={"delay": (late, late)}, action=action)
     world.reset(seed=2)
     begin = world.worlds.states[0]
     actions = some_actions(12, 1)[:, 0]
-    for action in actions:
-        world.step(action)
-    by_step = np.repeat(forces_of(actions), 10, axis=0)
+    for each in actions:
+        world.step(each)
+    commands = forces_of(actions) if action == "rotors" else rates_of(actions)
+    first = begin[24:] if action == "rotors" else [VEHICLE.weight, 0, 0, 0]
     ticks = round(1000 * late)
-    moved = np.concatenate([np.tile(begin[24:], (ticks, 1)), by_step])[: len(by_step)]
-    from flypend.plants.equations import EquationsEngine
+    moved = np.concatenate([np.tile(first, (ticks, 1)), np.repeat(commands, 10, axis=0)])[:120]
+    plant = PHYSICS.replace(interface="rates" if action == "rates" else "wrench")
+    flown = from_hover(begin, moved, plant, hold=1)[-1]
+    # Kernels may fuse products and sums of a rate loop.
+    assert np.allclose(world.worlds.states[0], flown, rtol=0, atol=0 if action == "rotors" else 1e-12)
 
-    engine = EquationsEngine(VEHICLE, PHYSICS)
-    engine.reset(begin[:24], begin[24:])
-    for command in moved:
-        engine.step(command, 1e-3, np.zeros(6))
-    assert np.array_equal(world.worlds.states[0], np.append(engine.packed, engine.rotors))
+
+@pytest.mark.parametrize("late", [0.0, 0.02])
+def test_rates_are_tracked_as_simulate_does(late):
+    """A turn of 1 rad/s, which a delay inside the rate loop would make swing."""
+    world = World("swing_up", action="rates", plant=PHYSICS.replace(delay=late))
+    world.reset(seed=3)
+    begin, action = world.worlds.states[0], np.array([-0.5, 1 / 12, 0, 0], dtype=np.float32)
+    for _ in range(40):
+        world.step(action)
+    start, command = fp.State.from_packed(begin[:24]), rates_of(action[None])
+    plant = fp.Plant(rate=100.0, delay=late, interface="rates")
+    flown = replayed(start, np.tile(command, (40, 1)), plant)[-1]
+    assert np.allclose(world.worlds.states[0, 15:18], flown[15:18], rtol=0, atol=1e-2)  # from other rotors
 
 
 def test_a_rod_that_touches_ends_its_world():
@@ -608,6 +688,7 @@ def test_a_rotation_that_a_task_draws_is_one_and_any_is_as_likely():
         ({"task": environment("balance").task, "shape": "circle"}, "shape"),
         ({"task": "track", "size": np.nan}, "size"), ({"task": "track", "turn_rate": "fast"}, "turn_rate"),
         ({"duration": 1e-9}, "duration"), ({"duration": 1e300}, "duration"),
+        ({"action": "rates", "plant": PHYSICS.replace(rate_loop_rate=500.0)}, "plant.rate_loop_rate"),
     ],
 )  # fmt: skip
 def test_what_is_not_possible_is_refused(arguments, field):
@@ -644,6 +725,18 @@ def test_a_task_that_answers_something_else_is_refused(name, function):
     assert refused.value.field == f"task.{name}"
 
 
+@pytest.mark.parametrize("goal", [[1.0, 2.0], np.array([1.0, 2.0]), ca.DM([1.0, 2.0])])
+def test_a_beginning_may_draw_some_parts_and_give_the_others(goal):
+    begin = lambda draws, vehicle: Begin(fp.State(x=draws.ball(1.0), y=(0, 0, 1)), goal)  # noqa: E731
+    worlds = VectorWorlds(replace(balance(), begin=begin), 20)
+    worlds.reset(seed=0)
+    begun = fp.State.from_packed(worlds.worlds.states[:, :24])
+    assert 0.5 < np.linalg.norm(begun.x, axis=1).max() <= 1
+    assert np.array_equal(begun.y, np.tile([0, 0, 1], (20, 1)))
+    assert np.array_equal(begun.R, np.tile(np.eye(3), (20, 1, 1)))
+    assert np.array_equal(worlds.worlds.goals, np.tile([1, 2], (20, 1)))
+
+
 def test_a_task_may_bring_any_argument_of_its_environments():
     task = replace(environment("balance").task, defaults={"action": "rates", "duration": 2.0})
     assert environment(task).action == "rates"
@@ -672,7 +765,7 @@ def test_a_number_beyond_single_precision_is_infinite():
     assert worlds.step([[0, 0, 0, 0], [0, 1e300, 0, 0]])[2].tolist() == [False, True]
 
 
-@pytest.mark.parametrize("seed", [-1, 2**70, 1.5, "a", [1, 2], [1, -2, 3], [1, 2, 2**64]])
+@pytest.mark.parametrize("seed", [-1, 2**70, 1.5, "a", np.array(3), [1, 2], [1, -2, 3], [1, 2, 2**64]])
 def test_a_seed_is_an_integer_or_one_for_each_world(seed):
     with pytest.raises(fp.InputError, match=r"^seed: "):
         VectorWorlds("balance", 3).reset(seed=seed)

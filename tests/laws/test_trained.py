@@ -132,7 +132,7 @@ def test_thrust_and_moments_are_those_of_the_environment():
     b, wrench = np.array([0.1, 0.02, -0.03, 0.01]), ca.SX.sym("s", 24)
     law = fp.laws.trained([(np.zeros((4, 24)), b)], action="wrench").bind(VEHICLE)
     own = np.array(ca.Function("w", [wrench], [law.upright(ca.SX(0), wrench)])(START.packed())).ravel()
-    forces = np.array(Parts(environment("balance", action="wrench")).asked()(b)).ravel()
+    forces = np.array(Parts(environment("balance", action="wrench")).command()(b)).ravel()
     assert np.allclose(VEHICLE.mixing() @ forces, own, rtol=0, atol=1e-12)
 
 
@@ -179,6 +179,12 @@ FAULTS = {
     "what is computed": ((("Gemm", ["W"], {"transB": 1}), ("Add", ["seen"], {})), {"W": np.zeros((24, 24))}),
     "a limit in between": ((("Gemm", ["W"], {"transB": 1}), ("Clip", ["l", "h"], {}), ("Tanh", [], {})),
                            {"W": np.zeros((4, 24)), "l": -1.0, "h": 1.0}),
+    "a product with itself": ((("Gemm", ["W"], {"transB": 1}), ("Mul", ["v0"], {})), {"W": np.zeros((24, 24))}),
+    "nothing to add": ((("Gemm", ["W"], {"transB": 1}), ("Add", [], {})), {"W": np.zeros((24, 24))}),
+    "whole numbers": ((("Cast", [], {"to": 6}), ("Gemm", ["W"], {"transB": 1})), {"W": np.zeros((4, 24))}),
+    "complex weights": ((("Gemm", ["W"], {"transB": 1}),), {"W": np.zeros((4, 24), dtype=complex)}),
+    "empty limits": ((("Gemm", ["W"], {"transB": 1}), ("Clip", ["l", "h"], {})),
+                     {"W": np.zeros((4, 24)), "l": np.zeros(0), "h": 1.0}),
     "other limits": ((("Gemm", ["W"], {"transB": 1}), ("Clip", ["l", "h"], {})),
                      {"W": np.zeros((4, 24)), "l": -2.0, "h": 1.0}),
     "too many": ((("Gemm", ["W"], {"transB": 1}), ("Tanh", [], {}), ("Gemm", ["V"], {"transB": 1})),
@@ -208,7 +214,13 @@ def test_what_is_no_onnx_file_is_refused_in_a_line(tmp_path):
 
 
 def test_layers_and_rotors_must_fit():
-    for layers in ([], "mine", [np.zeros(3)], [(np.zeros((4, 24)), np.zeros(3))]):
+    for layers in (
+        [],
+        "mine",
+        [np.zeros(3)],
+        [(np.zeros((4, 24)), np.zeros(3))],
+        [(1j * np.ones((4, 24)), np.zeros(4))],
+    ):
         with pytest.raises(fp.InputError, match=r"^network"):
             Network(layers)
     with pytest.raises(fp.InputError, match=r"^network: "):

@@ -421,7 +421,11 @@ def test_what_is_not_possible_is_refused(changes, field):
         small(**changes)
 
 
-@pytest.mark.parametrize("changes", [{"gravity": 0.0}, {"rotor_limits": (0.0, 1.3)}], ids=["no gravity", "weak"])
+@pytest.mark.parametrize(
+    "changes",
+    [{"gravity": 0.0}, {"rotor_limits": (0.0, 1.3)}, {"rotor_limits": (VEHICLE.weight / 4, 3.5)}],
+    ids=["no gravity", "weak", "never lighter"],
+)
 def test_a_machine_that_cannot_hover_is_not_trained(changes):
     with pytest.raises(fp.InputError, match=r"^vehicle: expected one that can hover"):
         Training(Course(VEHICLE.replace(**changes), duration=1.0))

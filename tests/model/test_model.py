@@ -161,6 +161,18 @@ def test_order_of_the_packed_state():
     np.testing.assert_array_equal(got[2].full().ravel(), TURN[:, 2])
 
 
+@pytest.mark.parametrize("name", SHAPES)
+def test_numbers_beside_an_expression_are_the_same_state(name):
+    state = fp.State.random(np.random.default_rng(0))
+    s = ca.SX.sym("s", *SHAPES[name])
+    mixed = fp.State(**(vars(state) | {name: s}))
+    got = ca.Function("f", [s], [mixed.packed(), mixed.z])(getattr(state, name))
+    assert np.array_equal(np.array(got[0]).ravel(), state.packed())
+    assert np.array_equal(np.array(got[1]).ravel(), state.z)
+    with refused("x", expected="(3)"):
+        fp.State(x=(0, 0), y=ca.SX.sym("y", 3))
+
+
 def test_a_batch_has_members():
     batch = fp.State.random(np.random.default_rng(3), (4, 2))
     assert len(batch) == 4

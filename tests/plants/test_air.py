@@ -60,6 +60,17 @@ def test_each_effect_acts_alone():
         np.testing.assert_array_equal(np.concatenate(wrench_of(only)(state, forces)), part)
 
 
+def test_derivatives_exist_at_rest_and_without_thrust():
+    """There the forces of body and rotors end in kinks of roots; the drag of the body is level."""
+    s, r = ca.SX.sym("s", 24), ca.SX.sym("r", 4)
+    wrench = ca.vertcat(*air_wrench(fp.State.symbolic(s), r, VEHICLE.replace(air=HUMMINGBIRD), AIR))
+    slopes = as_numpy(ca.Function("slopes", [s, r], [ca.densify(ca.jacobian(wrench, ca.vertcat(s, r)))]))
+    still = fp.State(y=(0, 0, 1)).packed()
+    assert np.isfinite(slopes(still, np.array([0.0, -1.0, 1e-40, 1.0]))).all()
+    drag = slopes(still, np.zeros(4))
+    assert abs(drag).max() < 1e-14  # roundoff of the root's floor
+
+
 def test_drag_only_takes_energy():
     rng, vehicle = np.random.default_rng(3), VEHICLE.replace(pivot_offset=(0.02, 0.01, 0.05))
     act = wrench_of(vehicle, ("rotor_drag", "inflow", "body_drag"))

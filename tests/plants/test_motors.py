@@ -74,6 +74,13 @@ def test_voltage_and_force_fall_with_the_power_of_all_rotors():
     assert np.all(np.diff([settled(u, Plant(sag=0.25))[0] for u in asked]) > 0)
 
 
+def test_a_sagging_battery_has_a_derivative_without_a_load():
+    """The identity: the load, with the power 3/2 of the commands, is level there."""
+    u = ca.SX.sym("u", 4)
+    slopes = ca.Function("slopes", [u], [ca.jacobian(settle_forces(u, MOST, 1.0, 0.2), u)])
+    np.testing.assert_array_equal(np.array(slopes(np.zeros(4))), np.eye(4))
+
+
 def test_a_command_beyond_the_limits_drains_no_more_than_the_largest():
     np.testing.assert_allclose(settled(np.full(4, 2 * MOST), Plant(sag=0.2)), 0.64 * 2 * MOST, rtol=1e-15)
     np.testing.assert_allclose(settled(np.full(4, -1.0), Plant(sag=0.2)), -1.0, rtol=1e-15)

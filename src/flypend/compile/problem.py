@@ -28,7 +28,8 @@ class Touch:
     Parameters
     ----------
     room : Program
-        (state before, state after, seconds in between) → a lower bound of the distances in between.
+        (state before, state after, seconds in between) → a lower bound of the distances in between. The state before
+        is also followed by the numbers of the vehicle, if they are inputs, as in `WorldsProblem`.
     touching : Program
         (before, after, seconds) → (least distance, share of the interval until the rod touches, part); the share is > 1
         if it does not.
@@ -287,7 +288,7 @@ class WorldsProblem:
     """Worlds that are advanced by actions, and begin again when they end.
 
     The memory of a world is what `begin` returns: state (24), rotor forces (n), last action (m), earlier commands
-    (`queued` times n), wind (6), timing of the rotors, numbers of the vehicle, the commands' delay in steps, goal; and
+    (`queued` times c), wind (6), timing of the rotors, numbers of the vehicle, the commands' delay in steps, goal; and
     then that of `estimating`, if any.
 
     Parameters
@@ -295,12 +296,12 @@ class WorldsProblem:
     begin : Program
         (uniform random numbers) → (memory).
     command : Program
-        (state with rotor forces, action in [−1, 1], numbers) → rotor forces (n), evaluated once an action, or before
-        every step if `inner`.
-    inner : bool
-        See `command`.
+        (action in [−1, 1]) → command (c), evaluated once an action.
+    loop : Program, optional
+        Rate loop (command that acts, omega, –) → rotor forces, run before every step. Without it, a command is the
+        rotor forces.
     step : Program
-        (state, rotors, command, wind, timing, numbers) → (state, rotors).
+        (state, rotors, commanded forces, wind, timing, numbers) → (state, rotors).
     observe : Program
         (time, memory) → observation; the time is that since the beginning, s.
     judge : Program
@@ -319,7 +320,7 @@ class WorldsProblem:
 
     begin: Program
     command: Program
-    inner: bool
+    loop: Program | None
     step: Program
     observe: Program
     judge: Program
@@ -334,8 +335,9 @@ class WorldsProblem:
         """Where the parts of the memory begin, and its length as "end"."""
         state, rotors, _, wind, timing, numbers = self.step.inputs
         lengths = {
-            "state": state, "rotors": rotors, "action": self.command.inputs[1], "queue": self.queued * rotors,
-            "wind": wind, "timing": timing, "numbers": numbers, "delay": 1,
+            "state": state, "rotors": rotors, "action": self.command.inputs[0],
+            "queue": self.queued * len(self.command.outputs[0]), "wind": wind, "timing": timing, "numbers": numbers,
+            "delay": 1,
         }  # fmt: skip
         found = dict(zip((*lengths, "goal"), accumulate(lengths.values(), initial=0), strict=True))
         estimate = len(self.begin.outputs[0])

@@ -21,7 +21,8 @@ from flypend.envs.problem import Environment, Parts
 from flypend.errors import InputError
 from flypend.geometry import clip
 from flypend.model.state import SIZE
-from flypend.plants.plant import check_seed
+from flypend.plants.actuation import OMEGA
+from flypend.plants.plant import are_seeds, check_seed
 
 
 class Stepped(NamedTuple):
@@ -76,7 +77,7 @@ class DifferentiableWorlds:
 
         They are those of `VectorWorlds` with these seeds. Raises InputError unless these are integers from 0.
         """
-        if not isinstance(seeds, list | tuple | range | np.ndarray) or len(seeds) == 0:
+        if not are_seeds(seeds) or len(seeds) == 0:
             raise InputError("seeds", "a sequence of integers", repr(seeds)[:80])
         for seed in seeds:
             check_seed("seeds", seed)
@@ -113,6 +114,7 @@ class DifferentiableWorlds:
     def torch(self, memory: Any, actions: Any) -> Stepped:
         """`step` for tensors of PyTorch on the CPU, with autograd; observations and rewards are of the actions' type.
 
+        There are first derivatives only: with `create_graph=True` the gradient raises InputError.
         `memory` is a tensor of float64, such as `torch.from_numpy` makes of that of `begin`.
         """
         return Stepped(*_torch_step().apply(self, memory, actions))
@@ -204,19 +206,17 @@ def step_and_pullback(env: Environment) -> tuple[ca.Function, ca.Function]:
     memory, action = ca.MX.sym("memory", sum(lengths)), ca.MX.sym("action", env.actions)
     before = ca.vertsplit(memory, [0, *np.cumsum(lengths).tolist()])
     clock, state, rotors, acted, queue, wind, timing, numbers, delay, goal = before
-    command, step = parts.command(), parts.step()
-    joined = _scalar("joined", [SIZE, env.rotors], lambda *vectors: [ca.vertcat(*vectors)])
+    rates, step = env.action == "rates", parts.step()
     asked = chain.call(_scalar("asked", [env.actions], lambda a: [clip(a, -1.0, 1.0)]), action)
-    inner = env.action == "rates"
+    command = chain.call(parts.command(), asked)
     for i in range(env.steps):
-        if inner or i == 0:
-            forces = chain.call(command, chain.call(joined, state, rotors), asked, numbers)
-        held = chain.call(_hold(env, parts.queued), ca.MX(i), forces, queue, delay) if parts.queued else forces
-        state, rotors = chain.call(step, state, rotors, held, wind, timing, numbers)
+        held = chain.call(_hold(parts), ca.MX(i), command, queue, delay) if parts.queued else command
+        forces = chain.call(_follow_rates(parts), held, state) if rates else held
+        state, rotors = chain.call(step, state, rotors, forces, wind, timing, numbers)
     if parts.queued:
-        sizes = [env.rotors, queue.numel()]
+        sizes = [parts.width, queue.numel()]
         queue = chain.call(
-            _scalar("queued", sizes, lambda new, old: [ca.vertcat(new, old[: -env.rotors])]), forces, queue
+            _scalar("queued", sizes, lambda new, old: [ca.vertcat(new, old[: -parts.width])]), command, queue
         )
     clock = chain.call(_scalar("ticked", [1], lambda clock: [clock + 1]), clock)
     rest = [queue, wind, timing, numbers, delay, goal]
@@ -242,17 +242,24 @@ def _scalar(name: str, lengths: Sequence[int], made: Callable[..., list[Any]]) -
     return ca.Function(name, vectors, list(map(ca.densify, made(*vectors))))
 
 
-def _hold(env: Environment, queued: int) -> ca.Function:
+def _hold(parts: Parts) -> ca.Function:
     """(step, command, queue, delay) → the command that acts in that step: `hold` in compile/loops/worlds.cpp."""
+    width, queued, steps = parts.width, parts.queued, parts.env.steps
 
     def held(*given: Any) -> list[Any]:
         step, acting, queue, delay = given
         for age in range(queued):
-            earlier = queue[age * env.rotors : (age + 1) * env.rotors]
-            acting = ca.if_else(delay - step > age * env.steps, earlier, acting)
+            earlier = queue[age * width : (age + 1) * width]
+            acting = ca.if_else(delay - step > age * steps, earlier, acting)
         return [acting]
 
-    return _scalar("held", [1, env.rotors, queued * env.rotors, 1], held)
+    return _scalar("held", [1, width, queued * width, 1], held)
+
+
+def _follow_rates(parts: Parts) -> ca.Function:
+    """(command, state) → rotor forces, by the rate loop."""
+    loop = parts.loop()
+    return _scalar("rate_loop", [parts.width, SIZE], lambda command, state: [loop(command, state[OMEGA], ca.SX(0, 1))])
 
 
 def _observe(parts: Parts, lengths: Sequence[int]) -> ca.Function:
@@ -299,6 +306,8 @@ def _torch_step() -> Any:
 
         @staticmethod
         def backward(ctx: Any, *gradients: Any) -> Any:
+            if torch.is_grad_enabled():  # else what a second derivative lacks would count as 0
+                raise InputError("create_graph", "False: worlds have first derivatives only", "True")
             memory, actions = ctx.saved_tensors
             given = [gradient.numpy() for gradient in gradients[:3]]
             found = ctx.worlds.pullback(memory.detach().numpy(), actions.detach().numpy(), *given)

@@ -50,7 +50,7 @@ class Environment:
     action : "rotors", "wrench" or "rates"
         What an action commands; each of its numbers is in [−1, 1]. "rotors": the forces of the rotors, from their
         minimum to their maximum. "wrench": thrust, from zero to the maximum, and moments, allocated within the limits.
-        "rates": thrust and body rates up to 12 rad/s, tracked by the plant's inner loop.
+        "rates": thrust and body rates up to 12 rad/s, tracked by the plant's rate loop before every step.
     attitude : "matrix", "6d" or "body"
         How the attitude is observed. "matrix": all columns of R. "6d": the first two. "body": only the vertical, with
         all vectors in the body frame, so that a policy need not learn that the heading makes no difference.
@@ -67,9 +67,9 @@ class Environment:
     Raises
     ------
     InputError
-        If the rates do not match, the duration is shorter than an action, a delay is too long, the task does not begin
-        on the vehicle's mount, or the plant has something that worlds do not have: noise, sensors of its own, gusts,
-        MuJoCo.
+        If the rates do not match, that of the rate loop included, the duration is shorter than an action, a delay is
+        too long, the task does not begin on the vehicle's mount, or the plant has something that worlds do not have:
+        noise, sensors of its own, gusts, MuJoCo.
     """
 
     task: Task
@@ -104,6 +104,9 @@ class Environment:
         if plant.engine != "equations" or any(part is not None for part in (plant.noise, plant.sensors, plant.wind)):
             wanted = "one by our equations, without noise and wind; sensors are an argument of their own"
             raise InputError("plant", wanted, repr(plant))
+        if self.action == "rates" and plant.rate_loop_rate != plant.rate:
+            wanted = f"the plant's rate, {plant.rate:g} Hz: the loop runs before every step of the motion"
+            raise InputError("plant.rate_loop_rate", wanted, f"{plant.rate_loop_rate:g}")
 
     @property
     def steps(self) -> int:
@@ -129,12 +132,14 @@ class Environment:
 def problem(env: Environment) -> WorldsProblem:
     """Return the programs of `env`."""
     parts = Parts(env)
+    numbers = ca.SX.sym("p", parts.numbers)
     return WorldsProblem(
-        begin=lower(parts.begin()), command=lower(parts.command()), inner=env.action == "rates",
+        begin=lower(parts.begin()), command=lower(parts.command()),
+        loop=lower(parts.loop()) if env.action == "rates" else None,
         step=lower(parts.step()), observe=lower(parts.observe()), judge=lower(parts.judge()),
         queued=parts.queued, steps=env.steps, length=1 / env.plant.rate,
-        touch=touch_of(env.vehicle, "up", by_rotors=True, floor=env.plant.floor),
-        estimating=None if parts.estimates is None else parts.estimates.programs(parts.asked()),
+        touch=touch_of(parts.machine(numbers), "up", by_rotors=True, floor=env.plant.floor, numbers=numbers),
+        estimating=None if parts.estimates is None else parts.estimates.programs(parts.command(), parts.idle),
     )  # fmt: skip
 
 
@@ -151,7 +156,8 @@ class Parts:
         n, latest = env.rotors, env.plant.delay + env.randomise.delay[1]
         self.queued = int(np.ceil(latest * env.rate - 1e-9))
         self.timing, self.numbers = timing_size(env.plant), 3 + n if env.randomise.varies else 0
-        self.lengths = [SIZE, n, env.actions, self.queued * n, 6, self.timing, self.numbers, 1]
+        self.width = 4 if env.action == "rates" else n  # of a command
+        self.lengths = [SIZE, n, env.actions, self.queued * self.width, 6, self.timing, self.numbers, 1]
         self.estimates = None if env.sensors is None else Estimates(env.vehicle, self.true, self._computer())
 
     def _computer(self) -> Sampled:
@@ -163,13 +169,17 @@ class Parts:
             rate_loop_gain=plant.rate_loop_gain,
         )  # fmt: skip
 
+    def machine(self, numbers: Any) -> Any:
+        """Return the vehicle that flies, whose `numbers` differ from world to world."""
+        return Varied(self.true, numbers) if self.numbers else self.true
+
     def begin(self) -> ca.Function:
         """(uniform numbers) → (memory)."""
         env, draws, n = self.env, Draws(), self.env.rotors
-        (low, high), begun = env.vehicle.rotor_limits, env.task.ask("begin", draws, env.vehicle)
+        (low, high), begun = env.vehicle.rotor_limits, env.task.ask("begin", draws, self.true)
         if not (isinstance(begun, tuple) and len(begun) == 2 and isinstance(begun[0], State)):
             raise InputError("task.begin", "a Begin: a State and the numbers of the goal", f"a {type(begun).__name__}")
-        state, goal = begun
+        state, goal = begun[0], ca.SX(begun[1])
         hover = ca.DM(np.full(n, np.clip(env.vehicle.weight / n, low, high)))
         asked = ca.vertcat(2 * ca.sum1(hover) / (n * high) - 1, ca.DM.zeros(3))  # the action that commands it
         if env.action == "rotors":
@@ -178,7 +188,7 @@ class Parts:
         wind = draws.between(*env.randomise.wind) * draws.direction() if env.randomise.wind[1] > 0 else ca.SX(3, 1)
         delay = (env.plant.delay + draws.between(*env.randomise.delay)) * env.plant.rate
         memory = ca.vertcat(
-            state.packed(), hover, asked, *[hover] * self.queued, wind, ca.SX(3, 1),
+            state.packed(), hover, asked, *[self.idle(hover)] * self.queued, wind, ca.SX(3, 1),
             self._timing(draws), numbers, ca.floor(delay + 0.5), goal,
         )  # fmt: skip
         self.goals = goal.numel()
@@ -191,18 +201,17 @@ class Parts:
             return ca.DM(motor_timing(self.true.rotor_lag, env.plant, h))
         return motor_timing(draws.between(*env.randomise.lag) * self.true.rotor_lag, env.plant, h, symbolic_timing)
 
-    def command(self) -> ca.Function:
-        """(state with rotors, action, numbers) → rotor forces."""
-        env, vehicle = self.env, self.env.vehicle
-        s, a, p = _symbols(s=SIZE + env.rotors, a=env.actions, p=self.numbers)
-        forces = self.asked()(a)
-        if env.action == "rates":
-            loop = rate_loop(vehicle, env.plant.limits, env.plant.rate_loop_gain, name="loop")
-            forces = loop(forces, s[15:18], ca.SX(0, 1))
-        return ca.Function("command", [s, a, p], [ca.densify(forces)])
+    def idle(self, rotors: Any) -> Any:
+        """Return the command before the first action, which keeps level `rotors` (n,), N, as they are."""
+        return ca.vertcat(ca.sum1(rotors), ca.DM.zeros(3)) if self.env.action == "rates" else rotors
 
-    def asked(self) -> ca.Function:
-        """(action) → rotor forces (n,), or thrust and body rates (4,) for the inner loop."""
+    def loop(self) -> ca.Function:
+        """(command, omega, –) → rotor forces: the rate loop, which knows the nominal vehicle."""
+        plant = self.env.plant
+        return rate_loop(self.env.vehicle, plant.limits, plant.rate_loop_gain, name="rate_loop")
+
+    def command(self) -> ca.Function:
+        """(action) → rotor forces (n,), or thrust and body rates (4,) for the rate loop."""
         env, vehicle, a = self.env, self.env.vehicle, ca.SX.sym("a", self.env.actions)
         if env.action == "rotors":
             command = rotor_action(a, vehicle)
@@ -211,14 +220,14 @@ class Parts:
         else:
             thrust, moment = thrust_action(a[0], vehicle), moment_action(a[1:], vehicle)
             command = rotor_forces(thrust, moment, vehicle, env.plant.limits)
-        return ca.Function("asked", [a], [ca.densify(command)])
+        return ca.Function("command", [a], [ca.densify(command)])
 
     def step(self) -> ca.Function:
         """(state, rotors, command, wind, timing, numbers) → (state, rotors)."""
         env, n = self.env, self.env.rotors
         s, r, u, w, h, p = _symbols(s=SIZE, r=n, u=n, w=6, h=self.timing, p=self.numbers)
-        vehicle: Any = Varied(self.true, p) if self.numbers else self.true
-        plant, commanded = motion_parts(env.plant), p[3:] * u if self.numbers else u
+        vehicle, plant = self.machine(p), motion_parts(env.plant)
+        commanded = p[3:] * u if self.numbers else u
         settled = settle_forces(commanded, vehicle.rotor_limits[1], plant.strength, plant.sag)
         wind = w if env.randomise.wind[1] > 0 else None
         return ca.Function("step", [s, r, u, w, h, p], step_state(s, r, settled, wind, h, vehicle, plant))
@@ -240,7 +249,7 @@ class Parts:
         x, x_dot = env.task.ask("goal", t, numbers, rows=3)
         error = State(**(vars(state) | {"x": state.x - x, "x_dot": state.x_dot - x_dot}))
         change = ca.SX.zeros(env.actions) if action is None else action - parts[2]
-        reach = env.vehicle.reach * (parts[6][2] if self.numbers else 1.0)
+        reach = self.machine(parts[6]).reach
         now = Moment(
             time=t, state=state, error=error, shares=parts[1] / env.vehicle.rotor_limits[1], change=change,
             end=state.x + reach * state.y, end_dot=state.x_dot + reach * state.y_dot, goal=numbers,

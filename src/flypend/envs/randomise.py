@@ -12,6 +12,7 @@ from flypend import errors
 from flypend.envs.draws import Draws
 from flypend.errors import InputError
 from flypend.model import Vehicle
+from flypend.model.rod import rod_inertia_factor
 from flypend.plants.machine import Machine
 
 Interval = tuple[float, float]
@@ -108,7 +109,10 @@ class Varied(Machine):
         # The rod's inertia scales with its mass and the square of its length, so the share of the point bob stays.
         own, at_pivot = mass * vehicle.mass, bob * (vehicle.M - vehicle.mass)
         equivalent = (own + at_pivot, bob * vehicle.m, length * vehicle.l)
-        super().__init__(vehicle, own, bob * vehicle.bob_mass, *equivalent, mass, vehicle.drag_ratio)
+        super().__init__(
+            vehicle, own, bob * vehicle.bob_mass, *equivalent, mass, vehicle.drag_ratio,
+            reach=length * vehicle.reach, rod_spin_inertia=rod_inertia_factor(bob, length) * vehicle.rod_spin_inertia,
+        )  # fmt: skip
 
     @staticmethod
     def drawn(vehicle: Vehicle, ranges: Randomisation, draws: Draws) -> Any:

@@ -6,10 +6,13 @@ numbers of a world's sensors are those of the flight with its seed plus 2⁶²; 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import casadi as ca
 import numpy as np
 
-from flypend.board.command import OUTSIDE, command_width, idle_command
+from flypend.board.command import OUTSIDE, command_width
 from flypend.board.estimator import Filter
 from flypend.board.nominal import Nominal
 from flypend.compile.problem import Estimating
@@ -66,20 +69,23 @@ class Estimates:
             ),
         )
 
-    def programs(self, asked: ca.Function) -> Estimating:
-        """Return the programs; `asked` is the command (w,) of an action (m,)."""
+    def programs(self, asked: ca.Function, idle: Callable[[Any], Any]) -> Estimating:
+        """Return the programs; `asked` is the command (w,) of an action (m,), `idle` as in `first`."""
         return Estimating(
-            first=lower(self.first()), carry=lower(self.carry(asked)), sense=lower(self.sense()), tick=START_TICK
+            first=lower(self.first(idle)), carry=lower(self.carry(asked)), sense=lower(self.sense()), tick=START_TICK
         )
 
-    def first(self) -> ca.Function:
-        """(state and rotor forces (24 + n,), draws of the start) → memory before the first readings."""
+    def first(self, idle: Callable[[Any], Any]) -> ca.Function:
+        """(state and rotor forces (24 + n,), draws of the start) → memory before the first readings.
+
+        `idle` returns the command (w,) that acts before the first action, for rotor forces (n,).
+        """
         begin = ca.SX.sym("s", SIZE + len(self._true.rotor_spins))
         draws = ca.SX.sym("d", start_draws(self._plant.sensors))
         state, rotors = begin[:SIZE], begin[SIZE:]
         estimate = first_estimate(self._plant.sensors)(state, draws)
         filtered = self._filter.begin()(rotors, estimate, [])
-        commands = ca.vertcat(*[idle_command(self._loop, rotors)] * self._under_way)
+        commands = ca.vertcat(*[idle(rotors)] * self._under_way)
         sensors = first_memory(self._plant.sensors, 1 / self._plant.rate, state, draws)
         memory = self.record.join(
             {"estimate": filtered, "outside": ca.SX.zeros(OUTSIDE.length), "commands": commands, "sensors": sensors}

@@ -106,7 +106,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         self._check_begun()
         env, states = self.worlds.env, np.array(self._flown)
         forces = states[:, SIZE:]
-        wrench = forces @ env.vehicle.mixing().T
+        wrench = forces @ env.plant.true_vehicle(env.vehicle).mixing().T
         named = State.trusted(states[:, :SIZE])
         return Trajectory(
             t=np.arange(len(states)) / env.rate, **{name: getattr(named, name) for name in vars(named)},

@@ -43,7 +43,7 @@ class Moment(NamedTuple):
     change : (m, 1)
         Change of the action; zero in observations.
     end, end_dot : (3, 1)
-        Position and velocity of the rod's far end, m and m/s.
+        Position and velocity of the true rod's far end, m and m/s.
     goal : (k, 1)
         The numbers that describe the goal.
     vehicle : Vehicle
@@ -75,7 +75,7 @@ class Task:
     name : str
         Its name in the id of the environment.
     begin : callable
-        (draws, vehicle) → `Begin`.
+        (draws, vehicle) → `Begin`; the vehicle is the plant's true one, but for what `randomise` draws.
     goal : callable
         (t, numbers of the goal) → desired position and velocity of the pivot, (3, 1) each, m and m/s.
     reward : callable

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from flypend import errors
 from flypend.envs.state import Stateful
 from flypend.errors import InputError
-from flypend.plants.plant import check_seed
+from flypend.plants.plant import are_seeds, check_seed
 
 
 class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
@@ -75,7 +75,7 @@ class VectorWorlds(Stateful, VectorEnv[Any, Any, Any]):
         With a "reset_mask" (num_envs,) of bool in `options`, only those that it marks; the others stay as they are.
         """
         which = self._beginning_worlds(options)
-        several = isinstance(seed, list | tuple | np.ndarray)
+        several = are_seeds(seed)
         if not several and seed is not None:
             check_seed("seed", seed)
         super().reset(seed=None if several or seed is None else int(seed))

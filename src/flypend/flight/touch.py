@@ -25,22 +25,27 @@ POINTS = 4
 BOUNDS = {"gimbal": np.inf, "cup": -1.0}  # `room` where it is not computed
 LANDED = "floor: "  # begins the name of what has met the floor
 NEVER = 2.0  # the share of an interval in which nothing is touched
+NO_NUMBERS = ca.SX(0, 1)
 
 
-def touch_of(vehicle: Vehicle, e3: E3Direction, *, by_rotors: bool, floor: float | None) -> problem.Touch | None:
+def touch_of(
+    vehicle: Any, e3: E3Direction, *, by_rotors: bool, floor: float | None, numbers: Numbers = NO_NUMBERS
+) -> problem.Touch | None:
     """Return what `vehicle` can touch, for kernels, None on a gimbal without a floor; arguments as in `touching`."""
     if vehicle.mount == "gimbal" and floor is None:
         return None
-    bound, search = (make(vehicle, e3, by_rotors=by_rotors, floor=floor) for make in (room, touching))
+    bound, search = (make(vehicle, e3, by_rotors=by_rotors, floor=floor, numbers=numbers) for make in (room, touching))
     return problem.Touch(lower(bound), lower(search))
 
 
 def touching(
-    vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None
-) -> ca.Function:
+    vehicle: Any, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None,
+    numbers: Numbers = NO_NUMBERS,
+) -> ca.Function:  # fmt: skip
     """Build (before, after, period) → (clearance, share, part) for two states in the frame `e3`, `period` (s) apart.
 
-    Each state is followed by the rotor forces, (24 + n,), or unless `by_rotors` by the thrust, (25,). In between the
+    Each state is followed by the rotor forces, (24 + n,), or unless `by_rotors` by the thrust, (25,); that before also
+    by the `numbers` (k,) of `vehicle`, symbols that differ from one machine to another. In between the
     rod moves in the body frame along the cubic through directions and rates at both ends, and is looked at in `POINTS`
     equally spaced shares of the interval. `clearance` is the smallest distance there, m, `share` the first at which a
     margin of `model.mount` is negative, `NEVER` if none is, and `part` the place of that margin in `touchable`.
@@ -50,6 +55,7 @@ def touching(
     2 ms by less than 0.1 mm.
     """
     before, after, period, ends = _ends(vehicle, e3, by_rotors)
+    given = [ca.vertcat(before, numbers), after, period]
     least, share, part = ca.SX(np.inf), ca.SX(NEVER), ca.SX(-1)
     for k in range(POINTS, 0, -1) if vehicle.mount != "gimbal" else ():
         smallest, place, clearance = least_margin(*_between(ends, period, k / POINTS), vehicle)
@@ -59,7 +65,7 @@ def touching(
     if floor is not None:
         high, low = (_heights(packed, vehicle, e3, floor) for packed in (before, after))
         share, part = _first_touch(high, low, vehicle, share, part)
-    return ca.Function("touching", [before, after, period], [ca.cse(ca.vertcat(least, share, part))])
+    return ca.Function("touching", given, [ca.cse(ca.vertcat(least, share, part))])
 
 
 def _heights(packed: Numbers, vehicle: Vehicle, e3: E3Direction, floor: float) -> Numbers:
@@ -81,8 +87,9 @@ def _first_touch(
 
 
 def room(
-    vehicle: Vehicle, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None
-) -> ca.Function:
+    vehicle: Any, e3: E3Direction = "up", *, by_rotors: bool = True, floor: float | None = None,
+    numbers: Numbers = NO_NUMBERS,
+) -> ca.Function:  # fmt: skip
     """Build (before, after, period), as in `touching`, → a lower bound of every distance in between, m, much cheaper.
 
     A point of a disc at height h and radius ρ is at least ρ |u₃| − |h| from a rod u in the body frame, one of an arm at
@@ -93,7 +100,7 @@ def room(
     bound = _room_on_hub(vehicle, period, *ends) if vehicle.mount == "hub" else ca.SX(BOUNDS[vehicle.mount])
     if floor is not None:
         bound = ca.if_else(ca.mmin(_heights(after, vehicle, e3, floor)) < 0, -1, bound)
-    return ca.Function("room", [before, after, period], [ca.cse(bound)])
+    return ca.Function("room", [ca.vertcat(before, numbers), after, period], [ca.cse(bound)])
 
 
 def _room_on_hub(vehicle: Vehicle, period: Any, before: _End, after: _End) -> Any:
@@ -159,7 +166,7 @@ def _ends(vehicle: Vehicle, e3: E3Direction, by_rotors: bool) -> tuple[Any, Any,
     """Symbols of states and period; and per state, the rod in the body frame, its rate, its push on the vehicle."""
     n = len(vehicle.rotor_spins) if by_rotors else 1
     before, after, period = ca.SX.sym("before", SIZE + n), ca.SX.sym("after", SIZE + n), ca.SX.sym("period")
-    to_thrust = ca.DM(vehicle.mixing(e3)[:1]) if by_rotors else ca.DM(1)
+    to_thrust = ca.DM(vehicle.mixing(e3))[0, :] if by_rotors else ca.DM(1)
 
     def end(packed: Numbers) -> _End:
         state = State.symbolic(packed[:SIZE])

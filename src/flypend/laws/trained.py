@@ -147,6 +147,7 @@ _ACTIVATIONS = {
     "Elu": "elu", "LeakyRelu": "leaky_relu",
 }  # fmt: skip
 _NUMBERS = {"Elu": 1.0, "LeakyRelu": 0.01}  # ONNX's defaults of the attribute alpha
+_REAL = (1, 10, 11, 16)  # ONNX's numbers of the types float, float16, double and bfloat16
 _BY_ENTRY: Mapping[str, Callable[[Any, Any], Any]] = {
     "Add": np.add, "Sub": np.subtract, "Mul": np.multiply, "Div": np.divide,
 }  # fmt: skip
@@ -200,20 +201,29 @@ class _Chain:
                 raise InputError("network", "constants that are tensors", f"a constant of {', '.join(attributes)}")
             self.constants[node.output[0]] = onnx.numpy_helper.to_array(attributes["value"])
             return
-        if self.last not in node.input or self._limited:
-            raise InputError("network", "operators that follow one another", f"{kind} of something else")
-        others = [self.constants.get(name) for name in node.input if name != self.last]
-        if any(other is None for other in others):
-            raise InputError("network", f"constants beside the input of {kind}", "what is computed")
+        others = self._constants_of(kind, node)
         if kind == "Clip":
-            self._limited = [float(np.ravel(other)[0]) for other in others if other is not None] == [-1.0, 1.0]
+            self._limited = [np.ravel(other).tolist() for other in others] == [[-1.0], [1.0]]
             if not self._limited:
                 raise InputError("network", "a Clip from −1 to 1 at the end", "another one")
         elif kind in _ACTIVATIONS:
             self._activate(_ACTIVATIONS[kind], float(attributes.get("alpha", _NUMBERS.get(kind, 1.0))))
+        elif kind == "Cast" and attributes.get("to") not in _REAL:
+            raise InputError("network", "a Cast to real numbers", f"one to type {attributes.get('to')} of ONNX")
         elif kind not in _AS_IS:
             self._map(kind, node.input[0] == self.last, others, attributes)
         self.last = node.output[0]
+
+    def _constants_of(self, kind: str, node: Any) -> list[Any]:
+        """Return the constants that a `node` takes beside what the last one returns."""
+        if list(node.input).count(self.last) != 1 or self._limited:
+            raise InputError("network", "operators that follow one another", f"{kind} of something else, or twice")
+        others = [self.constants.get(name) for name in node.input if name != self.last]
+        if any(other is None or np.iscomplexobj(other) for other in others):
+            raise InputError("network", f"constants beside the input of {kind}", "what is computed, or not real")
+        if kind in ("Gemm", "MatMul", *_BY_ENTRY) and not others:
+            raise InputError("network", f"a constant beside the input of {kind}", "none")
+        return others
 
     def _activate(self, activation: str, number: float) -> None:
         if not self.layers or self.layers[-1].activation != "identity":

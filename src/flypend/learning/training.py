@@ -65,8 +65,10 @@ class Training:
 
     def __post_init__(self) -> None:
         vehicle = self.course.vehicle
-        if vehicle.gravity == 0 or vehicle.weight >= len(vehicle.rotor_spins) * vehicle.rotor_limits[1]:
-            raise InputError("vehicle", "one that can hover", vehicle.name)
+        least, most = len(vehicle.rotor_spins) * np.array(vehicle.rotor_limits)
+        if not least < vehicle.weight < most:
+            wanted = f"one that can hover: a weight between its thrusts, {least:.3g} N and {most:.3g} N"
+            raise InputError("vehicle", wanted, f"{vehicle.weight:.3g} N of {vehicle.name}")
         if vehicle.mount == "cup":
             raise InputError("mount", "gimbal or hub: from random starts a rod leaves its cup at once", "cup")
         for name in ("rounds", "updates", "steps"):

@@ -13,7 +13,7 @@ import casadi as ca
 import numpy as np
 
 from flypend import errors
-from flypend.geometry import Scalar, Vector, cross, dot, is_symbolic
+from flypend.geometry import Scalar, Vector, cross, differentiable_root, dot, is_symbolic
 from flypend.model.state import State, centre_velocity
 
 AirEffect = Literal["rotor_drag", "inflow", "lift", "body_drag"]
@@ -103,7 +103,7 @@ def air_wrench(
     force, moment = ca.SX(3, 1), ca.SX(3, 1)
     for k, place in enumerate(vehicle.rotor_positions):
         seen, f = velocity + cross(state.omega, ca.DM(place)), ca.fmax(forces[k], 0)
-        root, level = ca.sqrt(f), seen[0] ** 2 + seen[1] ** 2
+        root, level = differentiable_root(f), seen[0] ** 2 + seen[1] ** 2
         up = lift * level - inflow * root * seen[2]
         if ground is not None:
             height = (state.x + ca.mtimes(state.R, ca.DM(place) - offset))[2] - ground
@@ -111,7 +111,7 @@ def air_wrench(
         on_rotor = ca.vertcat(-drag * root * seen[0], -drag * root * seen[1], up)
         force, moment = force + on_rotor, moment + cross(ca.DM(place), on_rotor)
     if "body_drag" in effects:
-        force = force - ca.sqrt(dot(velocity, velocity)) * ca.DM(coefficients["body_drag"]) * velocity
+        force = force - differentiable_root(dot(velocity, velocity)) * ca.DM(coefficients["body_drag"]) * velocity
     return force, moment
 
 

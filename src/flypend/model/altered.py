@@ -28,9 +28,10 @@ class Altered:
         assert e3 == "up" or "I" not in self._others
         return Altered(self._vehicle.in_frame(e3), **self._others)
 
-    def mixing(self) -> Numbers:
-        """As `Vehicle.mixing`, e₃ up."""
-        rows = self._vehicle.mixing()
+    def mixing(self, e3: E3Direction = "up") -> Numbers:
+        """As `Vehicle.mixing`; only with e₃ up if the `drag_ratio` is another."""
+        rows = self._vehicle.mixing(e3)
         if "drag_ratio" not in self._others:
             return rows
+        assert e3 == "up"
         return ca.vertcat(rows[:3], self.drag_ratio * ca.DM(self.rotor_spins).T)

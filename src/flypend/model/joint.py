@@ -39,12 +39,12 @@ def stiffness(vehicle: Vehicle) -> float:
     return float(resistance * (1 / lightest + 1 / (vehicle.m * vehicle.l**2)))
 
 
-def on_rod(state: State, torque: Vector, spin: float, l: Scalar) -> Vector:
+def on_rod(state: State, torque: Vector, spin: Scalar | None, l: Scalar) -> Vector:
     """Return the force P (..., 3) on the bob, at `l` (m), that with −P at the pivot is a `torque` on the rod, N.
 
-    The `torque` (..., 3), N m, is across the rod. Beside it the rod's `spin` S (kg m²/s) takes S ẏ, by which its
-    angular momentum S y changes: l y × P = torque − S ẏ.
+    The `torque` (..., 3), N m, is across the rod. Beside it the rod's `spin` S (kg m²/s), if it spins, takes S ẏ, by
+    which its angular momentum S y changes: l y × P = torque − S ẏ.
     """
-    taken = torque - scale(spin, state.y_dot) if spin else torque
+    taken = torque if spin is None else torque - scale(spin, state.y_dot)
     pair = cross(taken, state.y)
     return pair / l if is_symbolic(pair) else scale(1 / l, pair)

@@ -10,7 +10,20 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import E3, Matrix, Vector, apply, cross, dot, hat, hat_squared, is_symbolic, scale, transpose
+from flypend.geometry import (
+    E3,
+    Matrix,
+    Scalar,
+    Vector,
+    apply,
+    cross,
+    dot,
+    hat,
+    hat_squared,
+    is_symbolic,
+    scale,
+    transpose,
+)
 from flypend.model.dynamics import Rates, gravity_vector, gyroscopic_moment, swing_around
 from flypend.model.joint import on_rod
 from flypend.model.rod import is_point, share_out
@@ -29,15 +42,15 @@ class Disturbance(NamedTuple):
         o, from the vehicle's centre of mass to the pivot, body frame, m.
     joint_torque : (..., 3), optional
         Q, across the rod, world frame, N m; default none.
-    spin : float
-        S, angular momentum of the rod about its own axis, kg m²/s.
+    spin : scalar, optional
+        S, angular momentum of the rod about its own axis, kg m²/s; default none.
     """
 
     force_on_vehicle: Vector = (0.0, 0.0, 0.0)
     force_on_bob: Vector = (0.0, 0.0, 0.0)
     pivot_offset: Vector = (0.0, 0.0, 0.0)
     joint_torque: Vector = None
-    spin: float = 0.0
+    spin: Scalar | None = None
 
 
 UNDISTURBED = Disturbance()
@@ -104,7 +117,7 @@ def disturbed_motion(
     f, z = wrench.thrust, state.z
     speed_squared = dot(state.y_dot, state.y_dot)
     o, I, I_inv, moment, F_v, F_b = _of_rigid_body(vehicle, state, wrench, disturbance)
-    if disturbance.joint_torque is not None or disturbance.spin:
+    if disturbance.joint_torque is not None or disturbance.spin is not None:
         torque = 0 * state.y if disturbance.joint_torque is None else disturbance.joint_torque
         P = on_rod(state, torque, disturbance.spin, l)
         back = transpose(R)

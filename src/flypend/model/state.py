@@ -49,7 +49,8 @@ class State:
         Unit vector from the pivot to the bob and its rate (1/s), world frame; y_dot is tangent: y · y_dot = 0.
         y_dot defaults to 0.
 
-    R, y and y_dot within 1e-4 of the manifold (such as rounded numbers from a paper) are projected onto it.
+    R, y and y_dot within 1e-4 of the manifold (such as rounded numbers from a paper) are projected onto it. If a field
+    is a CasADi expression, all become expressions, and nothing is projected.
 
     Raises
     ------
@@ -66,7 +67,9 @@ class State:
     y_dot: Vector = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        if geometry.is_symbolic(self.y):
+        if any(_has_symbols(getattr(self, name)) for name in SHAPES):
+            for name, shape in SHAPES.items():
+                object.__setattr__(self, name, _expression(name, getattr(self, name), shape))
             return
         values = {name: errors.array(name, getattr(self, name), shape, batch=True) for name, shape in SHAPES.items()}
         batch = _batch_shape(values)
@@ -248,12 +251,22 @@ class Wrench:
         return self if e3 == "up" else self.flipped()
 
 
+def _has_symbols(value: Any) -> bool:
+    """Whether `value` is an expression, or a list of some."""
+    return geometry.is_symbolic(value) or (isinstance(value, list | tuple) and any(map(geometry.is_symbolic, value)))
+
+
+def _expression(field: str, value: Any, shape: tuple[int, ...]) -> Any:
+    """Return a field of a state as an expression; numbers must have this `shape`, and become a DM."""
+    if _has_symbols(value):
+        return _part(field, value)
+    return ca.DM(errors.array(field, value, shape))
+
+
 def _part(field: str, value: Any) -> Any:
-    """Return a part of a wrench as an array or an expression. Raises InputError unless it consists of numbers."""
-    if geometry.is_symbolic(value):
-        return value
-    if isinstance(value, list | tuple) and any(map(geometry.is_symbolic, value)):
-        return ca.vertcat(*value)
+    """Return `value` as an array or an expression. Raises InputError unless it consists of numbers."""
+    if _has_symbols(value):
+        return value if geometry.is_symbolic(value) else ca.vertcat(*value)
     found = np.asarray(value)
     if found.dtype.kind in "iuf" or (found.dtype == object and all(map(geometry.is_symbolic, found.ravel()))):
         return found

@@ -160,6 +160,6 @@ def rates_under(
         force, turning = air_wrench(state, rotors, vehicle, plant.effects(vehicle), plant.ground)
         on_vehicle, moment = on_vehicle + ca.mtimes(state.R, force), moment + turning
     torque = friction(state, vehicle) if vehicle.rubs else None
-    spin = vehicle.rod_spin * vehicle.rod_spin_inertia
+    spin = vehicle.rod_spin * vehicle.rod_spin_inertia if vehicle.rod_spin else None
     disturbance = Disturbance(on_vehicle, wind[3:], vehicle.pivot_offset, joint_torque=torque, spin=spin)
     return disturbed_motion(state, Wrench(wrench[0], moment), vehicle, "up", disturbance).packed()

@@ -29,15 +29,17 @@ class Machine(Altered):
         Factor of the vehicle's inertia.
     drag_ratio : scalar
         Torque per thrust of a rotor, m.
+    others : scalar
+        Any other attributes of `Vehicle` by name.
     """
 
     def __init__(
         self, vehicle: Vehicle, mass: Scalar, bob_mass: Scalar, M: Scalar, m: Scalar, l: Scalar, inertia: Scalar,
-        drag_ratio: Scalar,
+        drag_ratio: Scalar, **others: Scalar,
     ) -> None:  # fmt: skip
         super().__init__(
             vehicle, mass=mass, bob_mass=bob_mass, M=M, m=m, l=l, I=inertia * vehicle.I, I_inv=vehicle.I_inv / inertia,
-            drag_ratio=drag_ratio,
+            drag_ratio=drag_ratio, **others,
         )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from flypend.geometry import Numbers, Scalar, clip, is_symbolic
+from flypend.geometry import Numbers, Scalar, clip, differentiable_root, is_symbolic
 from flypend.plants.lag import TIMING_SIZE, Ramp, hold, step_timing
 from flypend.plants.plant import Plant
 
@@ -45,7 +45,7 @@ def settle_forces(command: Numbers, most: float, strength: Any, sag: Scalar) -> 
 def sag_forces(command: Numbers, most: Scalar, sag: Scalar) -> Numbers:
     """Return (V/V₀)² u_i of `settle_forces` for commands (n,) and their largest, `most`, N; all may be symbols."""
     share = clip(command / most, 0, 1)
-    load = ca.sum1(share * ca.sqrt(share)) / command.numel()
+    load = ca.sum1(share * differentiable_root(share)) / command.numel()
     return (1 - sag * load) ** 2 * command
 
 

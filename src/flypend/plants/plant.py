@@ -40,6 +40,11 @@ def check_seed(field: str, seed: object) -> None:
         raise InputError(field, "an integer from 0 to 2⁶²", repr(seed))
 
 
+def are_seeds(seeds: object) -> bool:
+    """Whether `seeds` is a sequence, each of whose entries may be a seed."""
+    return isinstance(seeds, list | tuple | range) or (isinstance(seeds, np.ndarray) and seeds.ndim > 0)
+
+
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True)
 class Wind:

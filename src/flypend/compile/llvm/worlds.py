@@ -33,7 +33,9 @@ def kernel_module(problem: WorldsProblem, width: int) -> LoopModule:
 
 def _programs(problem: WorldsProblem) -> dict[str, Definition]:
     programs = {name: isolate(getattr(problem, name)) for name in ("begin", "step", "observe", "judge")}
-    programs["command"] = isolate(problem.command, exact=not problem.inner)  # the forces asked for, to the bit
+    programs["command"] = isolate(problem.command, exact=True)  # what is asked for, to the bit
+    if problem.loop is not None:
+        programs["rate_loop"] = isolate(problem.loop)
     if (touch := problem.touch) is not None:
         programs |= {"room": isolate(touch.room), "touching": isolate(touch.touching)}
     if (own := problem.estimating) is not None:
@@ -45,10 +47,11 @@ def _constants(problem: WorldsProblem) -> Constants:
     own, places = problem.estimating, problem.places
     parts = ("action", "queue", "wind", "timing", "numbers", "delay", "estimate")
     numbers: Constants = {
-        "STATE": SIZE, "ROTORS": len(problem.command.outputs[0]), "ACTIONS": problem.command.inputs[1],
-        "OBSERVED": len(problem.observe.outputs[0]), "UNIFORMS": whole_blocks(problem.begin.inputs[0]),
-        "MEMORY": places["end"], "STEPS": problem.steps, "QUEUED": problem.queued, "LENGTH": problem.length,
-        "INNER": int(problem.inner), "TOUCHES": int(problem.touch is not None), "SENSES": int(own is not None),
+        "STATE": SIZE, "ROTORS": problem.step.inputs[1], "ACTIONS": problem.command.inputs[0],
+        "COMMAND": len(problem.command.outputs[0]), "OBSERVED": len(problem.observe.outputs[0]),
+        "UNIFORMS": whole_blocks(problem.begin.inputs[0]), "MEMORY": places["end"], "STEPS": problem.steps,
+        "QUEUED": problem.queued, "LENGTH": problem.length, "RATES": int(problem.loop is not None),
+        "NUMBERS": problem.step.inputs[5], "TOUCHES": int(problem.touch is not None), "SENSES": int(own is not None),
         "START_TICK": own.tick if own else 0, "START_DRAWS": whole_blocks(own.first.inputs[1]) if own else 0,
         "DRAWS": whole_blocks(own.sense.inputs[3]) if own else 0, "BOUND": BOUND,
     }  # fmt: skip

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lanes.hpp"
+#include "state.hpp"
 
 extern "C" {
 // Lengths.
@@ -51,5 +52,3 @@ void sense_estimate(const V *state, const V *draws, V *estimate);
 void sense(
     const V *memory, const V *t, const V *state, const V *draws, const V *sizes, V *next, V *readings);
 }
-
-constexpr int64_t OMEGA = 15;  // where the angular velocity begins in a state

@@ -19,7 +19,8 @@ static INLINE U whole(V number) { return (U)__builtin_convertvector(number, L); 
 extern "C" void kernel(
     V *memories, const L *seeds, const float *actions, float *observations, float *rewards, bool *terminated,
     bool *truncated, float *last, int64_t first, int64_t count, int64_t limit, int64_t fresh) {
-    V action[ACTIONS], observed[OBSERVED], given[ROTORS], held[ROTORS], before[STATE + ROTORS];
+    V action[ACTIONS], observed[OBSERVED], given[COMMAND], held[COMMAND], forces[ROTORS];
+    V before[STATE + ROTORS + NUMBERS];
     V draws[UNIFORMS], begun[MEMORY], start_draws[some(START_DRAWS)], noise[some(DRAWS)];
     V *clock, *episode, *memory, *state, *rotors;
     U seed;
@@ -62,10 +63,10 @@ extern "C" void kernel(
     // The command that acts in this `step` of the action: the present one, or one of those in the queue, latest first.
     auto hold = [&](int64_t step) WITHIN {
         const V left = memory[AT_DELAY] - T(step);
-        for (int64_t i = 0; i < ROTORS; i++) {
+        for (int64_t i = 0; i < COMMAND; i++) {
             V acting = given[i];
             for (int64_t age = 0; age < QUEUED; age++)
-                acting = left > T(age * STEPS) ? memory[AT_QUEUE + age * ROTORS + i] : acting;
+                acting = left > T(age * STEPS) ? memory[AT_QUEUE + age * COMMAND + i] : acting;
             held[i] = acting;
         }
     };
@@ -73,17 +74,20 @@ extern "C" void kernel(
     // Take the steps of the action; returns which of the worlds that are not `lost` are so then.
     auto move = [&](M lost) WITHIN {
         V *queue = memory + AT_QUEUE, share;
-        if (!INNER) command(state, action, memory + AT_NUMBERS, given);
+        const V *wanted = RATES ? forces : held;
+        command(action, given);
+        if (TOUCHES) copy(memory + AT_NUMBERS, before + STATE + ROTORS, NUMBERS);
         for (int64_t i = 0; i < STEPS; i++) {
-            if (INNER) command(state, action, memory + AT_NUMBERS, given);
             hold(i);
+            if (RATES) rate_loop(held, state + OMEGA, nullptr, forces);
             if (TOUCHES) copy(state, before, STATE + ROTORS);
-            step(state, rotors, held, memory + AT_WIND, memory + AT_TIMING, memory + AT_NUMBERS, state, rotors);
+            step(state, rotors, wanted, memory + AT_WIND, memory + AT_TIMING, memory + AT_NUMBERS, state, rotors);
             Contact contact{};  // distances above 0 are not looked for
             if (TOUCHES) lost |= contact.look(~lost, before, state, all(T(LENGTH)), share);
         }
-        for (int64_t age = QUEUED - 1; age > 0; age--) copy(queue + (age - 1) * ROTORS, queue + age * ROTORS, ROTORS);
-        if (QUEUED) copy(given, queue, ROTORS);
+        for (int64_t age = QUEUED - 1; age > 0; age--)
+            copy(queue + (age - 1) * COMMAND, queue + age * COMMAND, COMMAND);
+        if (QUEUED) copy(given, queue, COMMAND);
         return lost;
     };
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "lanes.hpp"
+#include "state.hpp"
 
 extern "C" {
 // Lengths.
 extern const int64_t STATE, ROTORS;  // of the state, and of the rotor forces that follow it
-extern const int64_t ACTIONS, OBSERVED;
+extern const int64_t ACTIONS, COMMAND, OBSERVED;
+extern const int64_t NUMBERS;        // of the vehicle
 extern const int64_t UNIFORMS;       // of the random numbers of a beginning
 extern const int64_t MEMORY;         // of a world
 
@@ -16,7 +18,7 @@ extern const int64_t AT_ACTION, AT_QUEUE, AT_WIND, AT_TIMING, AT_NUMBERS, AT_DEL
 // An action consists of `STEPS` steps of `LENGTH`, s. Up to `QUEUED` earlier commands may still act.
 extern const int64_t STEPS, QUEUED;
 extern const double LENGTH;
-extern const int64_t INNER;    // whether a command is computed before every step
+extern const int64_t RATES;    // whether a command goes through the rate loop
 
 extern const int64_t TOUCHES;  // whether the rod can touch anything
 
@@ -29,9 +31,10 @@ extern const double BOUND;  // a state is lost once its length is beyond it; no 
 
 // Programs, for all lanes. Inputs are read before an output is written, so an output may be an input.
 void begin(const V *uniforms, V *memory);
-void command(const V *state, const V *action, const V *numbers, V *forces);
+void command(const V *action, V *command);
+void rate_loop(const V *command, const V *omega, const V *none, V *forces);
 void step(
-    const V *state, const V *rotors, const V *command, const V *wind, const V *timing, const V *numbers, V *next,
+    const V *state, const V *rotors, const V *forces, const V *wind, const V *timing, const V *numbers, V *next,
     V *next_rotors);
 void observe(const V *t, const V *memory, V *observed);
 void judge(const V *t, const V *memory, const V *action, V *reward, V *ended);  // ended: above 0

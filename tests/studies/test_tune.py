@@ -12,6 +12,7 @@ from flypend.cli import app as cli
 from flypend.files.toml import toml_text
 from flypend.flight.ensemble import fly_many
 from flypend.flight.simulate import fly
+from flypend.report.tuning import summarise
 from flypend.settings.runfile import run_file
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import design
@@ -45,6 +46,12 @@ def test_the_starts_tuned_on_are_none_of_those_reported():
     tuned, reported = (design(study, 0, 300, stream).packed for stream in (cube.TUNED, cube.REPORTED))
     assert not {tuple(row) for row in tuned} & {tuple(row) for row in reported}
     np.testing.assert_array_equal(reported, design(study, 0, 300).packed)  # what a sweep flies
+
+
+def test_starts_of_a_sobol_sequence_have_no_interval():
+    report = fp.tune(SMALL | {"sampling": "sobol", "tune": SMALL["tune"] | {"generations": 1}}, workers=1).after
+    assert report["wilson_low"] is report["wilson_high"] is None
+    assert "runs succeed (no interval), median" in summarise(report)
 
 
 def test_what_is_reported_is_what_a_sweep_finds(found, tmp_path):

@@ -348,14 +348,15 @@ def learn(
 
 def fly_study(made: fp.Study, store: Path, *, processes: bool = False, **options: Any) -> None:
     """Fly the study `made` into `store` with these options of `studies.sweep`, and print the success rate."""
-    from flypend.flight.metrics import wilson
+    from flypend.studies.sweep.tally import Tally
 
     tell_how(made.law)
     if isinstance(made.law, fp.Controller) and options.get("scheduler") is None:
         processes = True  # it flies step by step in Python, so that only processes can use more than one core
     with resumable(), counter(rate=True) as tell:
         flown = fp.sweep(made, store, processes=processes, **options, progress=partial(tell, f"flying {made.law.name}"))
-    good, runs = int(flown.success.sum()), made.runs
-    low, high = wilson(good, runs)
-    rate = f"{100 * good / runs:.4g} % (95 % interval {100 * low:.4g} to {100 * high:.4g} %)"
-    console.print(f"{good} of {runs} runs succeed: {rate}. Runs are in {bold(store)}.")
+    tally = Tally(made)
+    for rows in map(made.rows, range(made.chunks)):
+        tally.add(rows, flown.success[rows.start : rows.stop].values)
+    rate = f"{100 * tally.rate:.4g} % ({tally.describe_interval()})"
+    console.print(f"{tally.successes} of {tally.runs} runs succeed: {rate}. Runs are in {bold(store)}.")

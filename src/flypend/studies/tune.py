@@ -92,8 +92,8 @@ class Tuned:
     gains : dict
         The best gains.
     before, after : dict
-        Cost, success rate with its interval, settling time and excursion of the initial and the tuned gains, on the
-        starts of the study (at most 20 000), which are held out from tuning.
+        Cost, success rate with its Wilson interval (None for starts of a Sobol sequence), settling time and excursion
+        of the initial and the tuned gains, on the starts of the study (at most 20 000), held out from tuning.
     history : list of dict
         By generation: runs flown so far, best and median cost on the tuning starts, and the centre of the search.
     """
@@ -291,7 +291,8 @@ class _Task:
         runs = min(self.study.samples, MOST_REPORTED)
         columns = self._fly(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
         success = columns["success"]
-        low, high = wilson(int(success.sum()), runs)
+        independent = self.study.sampling == "uniform"
+        low, high = wilson(int(success.sum()), runs) if independent else (None, None)
         settled = columns["settling"][success]
         return {
             "gains": gains,

@@ -250,7 +250,7 @@ def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, 
 
 
 def interval_over_starts(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[float, float]:
-    """Return the interval of a success rate where start i of n succeeded in `successes[i]` of its `runs[i]` runs.
+    """Return the interval, at `confidence`, of a rate of `successes` out of `runs`, both (n,): those of each start.
 
     Runs from one start depend on each other. The variance of the rate over starts, which are clusters (Cochran 1977,
     Sampling Techniques, ch. 9A), says how many independent runs would have it; the interval is Wilson's for that number

@@ -109,6 +109,12 @@ def test_an_interrupted_search_goes_on_to_the_same_result(tmp_path):
     again = fp.tune(SMALL, workers=1, costs=path, progress=lambda *now: told.append(now))
     assert told == [(2, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
     assert (again.gains, again.history, again.after) == (whole.gains, whole.history, whole.after)
+    turned = {key: SMALL[key] for key in reversed(SMALL)} | {"duration": int(SMALL["duration"])}
+    turned["tune"] = {key: SMALL["tune"][key] for key in reversed(SMALL["tune"])}
+    turned["tune"]["gains"] = {"k_1": [4, 60], "k_d": [0.3, 4]}
+    same = fp.tune(turned, workers=1, costs=path, progress=lambda *now: told.append(now))
+    assert told[5:] == [(4, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
+    assert (same.gains, same.history) == (whole.gains, whole.history)
     with pytest.raises(fp.InputError, match="expected the costs of this search"):
         fp.tune(SMALL | {"seed": 9}, workers=1, costs=path)
 

@@ -30,7 +30,7 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
         (folder / "tuned.toml").write_text(words + run_text(result.settings(), out), encoding="utf-8")
         content = {
             "flypend": __version__,
-            "study": result.study.text(),
+            "study": result.study.text(Path(out)),
             "tune": result.study.tune,
             "before": result.before,
             "after": result.after,

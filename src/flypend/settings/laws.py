@@ -160,6 +160,11 @@ def relative(value: Any, folder: Path) -> Any:
     return _move_paths(value, moved)
 
 
+def drop_folders(value: Any) -> Any:
+    """Return `value`, a law as in `law_from`, with its file path reduced to the file's name, to compare laws."""
+    return _move_paths(value, lambda file: Path(file).name)
+
+
 def _move_paths(value: Any, move: Callable[[str], str]) -> Any:
     """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):

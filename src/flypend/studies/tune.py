@@ -30,7 +30,7 @@ from flypend.studies.bands import worlds_within
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import program_digest
 from flypend.studies.sweep.design import design
-from flypend.studies.sweep.study import Study
+from flypend.studies.sweep.study import Study, canonical
 from flypend.studies.sweep.study import study as study_from
 
 KEYS = ("gains", "objective", "bands", "runs", "generations", "population", "seed", "step")
@@ -159,7 +159,8 @@ def tune(
     task = _Task(made)
     search = _search(task)
     bands = made.flight.vehicle.bands if task.bands else ""
-    kept = _Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}{bands}")
+    identity = f"{canonical({**made.settings, 'tune': made.tune})}{program_digest(made)}{bands}"
+    kept = _Costs(None if costs is None else Path(costs), identity)
     history: list[dict[str, Any]] = []
     best, least = task.start, np.inf
     progress(min(kept.generations, task.generations), task.generations)
@@ -344,7 +345,7 @@ class _Task:
 
 
 def _limits(made: Study) -> dict[str, tuple[float, float]]:
-    """Return the range of each gain to be tuned. Raises InputError."""
+    """Return the range of each gain to be tuned, in the order of the law's gains. Raises InputError."""
     bounds = made.tune.get("gains")
     if bounds is None and set(STANDARD) <= made.law.numbers.keys():
         bounds = {name: [made.law.numbers[name] / SPAN, made.law.numbers[name] * SPAN] for name in STANDARD}
@@ -360,7 +361,7 @@ def _limits(made: Study) -> dict[str, tuple[float, float]]:
         if not low <= made.law.numbers[name] <= high:
             raise InputError(f"tune.gains.{name}", f"a range around {made.law.numbers[name]:g}", [low, high])
         limits[name] = (low, high)
-    return limits
+    return {name: limits[name] for name in made.law.numbers if name in limits}
 
 
 def _search(task: _Task) -> Any:

@@ -27,6 +27,7 @@ from flypend.cli.options import (
     path,
     plant_asked,
     refuse_idle,
+    sensors_asked,
     sensors_option,
     vehicle_option,
 )
@@ -132,7 +133,7 @@ def compare(
 @click.option(
     "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
 )
-@click.option("--sensors", help="Fly a rung for each error of these sensors instead: mocap or onboard.")
+@click.option("--sensors", help="Fly a rung for each error of these sensors instead: mocap, onboard or a TOML file.")
 @bands_option
 def ladder(
     law: tuple[str, ...], out: Path, chosen: Starts, rung: tuple[str, ...], sensors: str | None, bands: bool
@@ -147,7 +148,7 @@ def ladder(
     if bands:
         rungs: Mapping[str, AnyPlant] = band_worlds(machine, plant_asked("rotors", sensors or "perfect"), chosen.seed)
     else:
-        rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
+        rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors_asked(sensors), Path(sensors).name)
     flown = {
         name: rung_named(name, rungs)
         for name in rung or rungs

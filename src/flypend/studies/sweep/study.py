@@ -223,7 +223,8 @@ def _build(given: dict[str, Any], stand_in: Law | None = None) -> Study:
             raise InputError(key, "a value", "nothing")
     start, vary = _start(given)
     flight = _flight(given, start, vary, stand_in)
-    found = axes(vary, flight.law, isinstance(flight.plant, Sampled))
+    # A law in Python flies sampled through the ideal plant, too, which has no numbers to vary.
+    found = axes(vary, flight.law, isinstance(plant_of(given.get("plant", "rotors")), Sampled))
     errors.check_kind("final", given.get("final", False), bool)
     # Sorted, so that the sample does not depend on the order of the keys in the file.
     order = {"plant": 0, "gains": 1, "start": 2}

@@ -168,7 +168,10 @@ def drop_folders(value: Any) -> Any:
 def _move_paths(value: Any, move: Callable[[str], str]) -> Any:
     """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):
-        return {**value, **{name: _move_paths(value[name], move) for name in PLACES if name in value}}
+        moved = {name: _move_paths(value[name], move) for name in PLACES if name in value}
+        if isinstance(gains := value.get("gains"), Mapping):  # of which one may be the file of a policy
+            moved["gains"] = {name: _move_paths(gain, move) for name, gain in gains.items()}
+        return {**value, **moved}
     file, attribute = split_place(value) if isinstance(value, str) else ("", "")
     return f"{move(file)}{attribute}" if file else value
 

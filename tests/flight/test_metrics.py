@@ -8,7 +8,7 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.flight.metrics import Metrics, metrics, wilson
+from flypend.flight.metrics import Metrics, interval_over_starts, metrics, wilson
 from flypend.flight.outcome import Outcome
 from flypend.model import equations_of_motion
 
@@ -399,6 +399,33 @@ def test_wilsons_interval_covers_the_rate_in_95_of_100_experiments(rate, runs):
     middle = {k: (low + high) / 2 for k, (low, high) in ends.items()}
     half = [abs(rate - middle[k]) <= (ends[k][1] - ends[k][0]) / 4 for k in drawn.tolist()]
     assert np.mean(half) < 0.9
+
+
+@pytest.mark.parametrize("width", [0.0, 0.1, 0.5])
+def test_the_interval_over_starts_covers_the_rate_of_all_cells(width):
+    """40 starts in 25 cells whose rates differ by `width`: a start that fails in one cell fails in all harder ones.
+
+    2,000 experiments know the share that covers to 0.005.
+    """
+    rng, rates = np.random.default_rng(5), np.linspace(0.7 - width / 2, 0.7 + width / 2, 25)
+    truth, runs = rates.mean(), np.full(40, 25)
+    drawn = [np.sum(rng.random((40, 1)) < rates, axis=1) for _ in range(2000)]
+    covered, as_independent = (
+        np.mean([low <= truth <= high for low, high in ends])
+        for ends in ([interval_over_starts(k, runs) for k in drawn], [wilson(k.sum(), 1000) for k in drawn])
+    )
+    assert 0.93 < covered < 0.975
+    assert as_independent < 0.7  # negative control
+
+
+def test_the_interval_over_starts_is_wilson_s_where_each_flies_once_and_no_narrower_than_that_of_all_runs():
+    once = np.arange(50) < 31
+    assert interval_over_starts(once, np.ones(50)) == pytest.approx(wilson(31, 50), abs=1e-12)
+    for rate in (0, 1):  # starts that all fail, or succeed, are no more than they are
+        assert interval_over_starts(np.full(30, 8 * rate), np.full(30, 8)) == pytest.approx(wilson(30 * rate, 30))
+    assert interval_over_starts(np.full(30, 4), np.full(30, 8)) == pytest.approx(wilson(120, 240))  # cells decide
+    few = interval_over_starts(np.array([8, 3, 0]), np.array([8, 4, 0]))  # of an unfinished store
+    assert few == interval_over_starts(np.array([8, 3]), np.array([8, 4]))
 
 
 def test_a_run_without_samples_to_judge_is_refused_and_a_long_hold_is_not_late():

@@ -11,6 +11,7 @@ from scipy.stats import binomtest
 import flypend as fp
 from flypend import palette
 from flypend.cli import app as cli
+from flypend.cli.studies import fly_study
 from flypend.flight.metrics import wilson, wilson_bounds
 from flypend.pictures.maps import FAILED, map_figure
 from flypend.studies.sweep import bins, cube
@@ -101,6 +102,42 @@ def test_a_grid_keeps_its_cells(tmp_path):
     assert up.tolist() == [-0.5, 0.5, 1.5]
     assert runs.gather([plane])[0].runs.tolist() == [2.0] * 8
     assert map_figure(tmp_path / "g.zarr").axes
+
+
+@pytest.fixture(scope="module")
+def repeated(tmp_path_factory):
+    """Forty starts, each in eight cells that are all but equal."""
+    path = tmp_path_factory.mktemp("repeated") / "r.zarr"
+    gains = {"k_d": {"from": 1.0, "to": 1.0 + 1e-9, "points": 8}}
+    made = fp.study(STUDY | {"runs": 40, "chunk": 90, "vary": STUDY["vary"] | {"gains": gains}})
+    return path, made, fp.sweep(made, path, workers=1)
+
+
+def test_runs_from_one_start_are_no_independent_runs(repeated, capsys):
+    path, made, data = repeated
+    good = data.success.values.reshape(8, 40)
+    assert np.all(good == good[0])
+    assert 0 < good[0].sum() < 40
+    low, high = wilson(good[0].sum(), 40)
+    words = f"(95 % interval over 40 starts {100 * low:.4g} to {100 * high:.4g} %)"
+    fly_study(made, path, workers=1)
+    assert words in " ".join(capsys.readouterr().out.split())
+    assert words in map_figure(path, cells=4).get_suptitle()
+    runs = bins.Runs(path)
+    for names, repeats in ((("tilt", "rate"), 8), (("tilt", "gains.k_d"), 1)):
+        cells = runs.gather([bins.plane(runs, names, 4)[0]])[0]
+        low, high = wilson_bounds(cells.successes / repeats, cells.runs / repeats)
+        np.testing.assert_allclose(cells.width, high - low)
+        assert cells.runs.sum() == 320
+
+
+@pytest.mark.parametrize("sampling", ["sobol", "latin"])
+def test_draws_that_are_not_independent_have_no_interval(sampling, tmp_path, capsys):
+    made = fp.study(STUDY | {"runs": 64, "sampling": sampling})
+    fly_study(made, tmp_path / "s.zarr", workers=1)
+    words = f"(no interval: {sampling} draws are not independent)"
+    assert words in " ".join(capsys.readouterr().out.split())
+    assert words in map_figure(tmp_path / "s.zarr").get_suptitle()
 
 
 def test_bounds_are_wilson_s():

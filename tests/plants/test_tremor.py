@@ -158,6 +158,25 @@ def test_given_gains_stay():
     assert calm(PLAIN, Plant(sensors=SLOWER)) is PLAIN
 
 
+def test_a_gain_that_differs_from_run_to_run_stays_as_if_given():
+    def flight(law, **gains):
+        starts = fp.State(y=[[0.0, 0.0, 1.0]] * 2) if gains else UPRIGHT
+        return Flight(vehicle=VEHICLE, law=law, starts=starts, duration=1.0, plant=Plant(sensors=SLOWER), gains=gains)
+
+    law = inverted().bind(VEHICLE)
+    value = law.numbers["rod_damping"]
+    varied, given = flight(law, rod_damping=[value, 0.5]), flight(inverted(rod_damping=value))
+    assert varied.law.prepared["calming"] == given.law.prepared["calming"]
+    assert varied.law.calm == given.law.calm > 0
+    assert "rod_damping" in flight(law).law.prepared["calming"]
+    assert varied.loop.law is varied.replace(duration=2.0).law is varied.law  # compiled once
+    assert varied.through(Plant()).law.prepared["calming"] == {}
+    assert flight(varied.law).law is flight(law).law
+    assert flight(law, throw_speed=[1.0, 2.0]).law is flight(law).law  # which is never calmed
+    all_ = flight(law, **{name: [0.5, 0.9] for name in CALM[True]})
+    assert (all_.law.calm, all_.law.prepared["calming"]) == (0.0, {})
+
+
 def test_a_law_on_a_path_is_calmed_for_hover_and_stays_on_its_path():
     law = inverted(reference=fp.laws.references.circle(0.5, 4.0)).bind(VEHICLE)
     found = calm(law, Plant(sensors=SLOWER))

@@ -102,6 +102,11 @@ def test_a_policy_is_a_law_of_its_own_name(here):
     own, hub = (each.bind(VEHICLE).prepared["network"] for each in (law, law_named("learned")))
     assert own.size == policy("hehn2011-hub").size != hub.size
     assert absolute("mine.npz", here / "laws") == str(here / "laws" / "mine.npz")
+    table = {"name": "learned", "gains": {"policy": "mine.npz"}}
+    assert absolute(table, here / "laws")["gains"]["policy"] == str(here / "laws" / "mine.npz")
+    assert relative(absolute(table, here / "laws"), here / "laws") == table
+    usual = {"name": "learned", "gains": {"policy": "hehn2011"}}
+    assert absolute(usual, here) == usual
     assert table_of("laws/mine.npz") == {"function": "laws/mine.npz"}
 
 

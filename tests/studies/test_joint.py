@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import flypend as fp
+from flypend.cli.studies import ladder
+from flypend.files.toml import toml_text
 from flypend.flight.tasks import task_starts
 from flypend.plants import ROTORS, SUITES
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
@@ -160,6 +162,26 @@ def test_each_rung_of_the_sensors_has_one_defect_and_every_defect_has_one():
     assert rung_named("1 pose in 200 wrong", rungs).sensors.outliers == 0.005
     with pytest.raises(fp.InputError, match="different numbers"):
         rung_named("1 pose in 200 wrong, IMU turned 1 deg", rungs)
+
+
+def test_a_ladder_takes_sensors_from_a_file(tmp_path, monkeypatch):
+    """The rungs are those of a suite with these sensors, and the command hands them over."""
+    table = {"base": "mocap", "rod": {"noise": 0.001}}
+    rungs = sensor_rungs(table, "mine.toml")
+    assert list(rungs)[1:] == list(sensor_rungs("mocap"))[1:]
+    assert rungs["mine.toml"].sensors.rod.noise == rungs["gyro scale 2 %"].sensors.rod.noise == 0.001
+    (tmp_path / "mine.toml").write_text(toml_text(table), encoding="utf-8")
+    flown = {}
+
+    def watched(*_, rungs, **__):
+        flown.update(rungs)
+        raise SystemExit
+
+    monkeypatch.setattr("flypend.studies.ladder", watched)
+    arguments = ["--sensors", str(tmp_path / "mine.toml"), "--runs", "1", "-o", str(tmp_path / "out")]
+    with pytest.raises(SystemExit):
+        ladder.main(arguments, standalone_mode=False)
+    assert flown == rungs
 
 
 def test_the_laboratory_is_wrong_as_it_says():

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 import flypend as fp
 from flypend.cli import app as cli
 from flypend.files.toml import toml_text
+from flypend.laws import Controller
 from flypend.plants import Noise, Plant
 from flypend.settings.runfile import run_file
 from flypend.studies.sweep.design import design
@@ -230,6 +231,16 @@ def test_toml_that_is_written_reads_back_as_the_same(table):
     again = tomllib.loads(toml_text({"table": table, "plain": [1.0, 2.5]}))
     assert again["plain"] == [1.0, 2.5]
     assert repr(again["table"]) == repr(table)  # NaN too
+
+
+def test_the_ideal_plant_has_no_numbers_to_vary_under_a_law_in_python_either(tmp_path):
+    text = "import flypend as fp\n\ndef hold(t, s, v):\n    return fp.Wrench(float(s.x[2]) * v.weight, 0 * s.omega)\n"
+    (tmp_path / "mine.py").write_text(text, encoding="utf-8")
+    law, asked = {"function": f"{tmp_path / 'mine.py'}:hold"}, {"delay": {"values": [0.0, 0.01]}}
+    table = STUDY | {"law": law, "start": {"y": [0.0, 0.0, 1.0]}, "vary": {"plant": asked}}
+    assert isinstance(fp.study(table).law, Controller)
+    with pytest.raises(fp.InputError, match=r"^vary\.plant: expected a plant with numbers"):
+        fp.study(table | {"plant": "ideal"})
 
 
 @pytest.mark.parametrize(

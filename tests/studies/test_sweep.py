@@ -24,8 +24,8 @@ from flypend.flight.metrics import metrics
 from flypend.geometry import dot, norm
 from flypend.model.state import FLIP
 from flypend.paper import experiment
+from flypend.studies.sweep import bins, cube
 from flypend.studies.sweep import chunk as flown
-from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import CAUSES, fly_range
 from flypend.studies.sweep.claim import lock_of
 from flypend.studies.sweep.design import design
@@ -359,6 +359,73 @@ def test_a_store_begun_with_other_equations_or_versions_is_refused(tmp_path):
     resealed(group, program=program, versions={**group.attrs["versions"], "casadi": "1.0"})
     with pytest.raises(fp.InputError, match=r"versions.casadi: expected 1.0"):
         fp.sweep(SHORT, path, workers=1)
+
+
+def turned(value):
+    """Settings with the keys of every table in reverse order, and whole numbers without a point."""
+    if isinstance(value, dict):
+        return {key: turned(value[key]) for key in reversed(value)}
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def test_neither_the_order_of_lines_nor_the_way_a_number_is_written_makes_another_study(tmp_path):
+    path, table = tmp_path / "a.zarr", SHORT | {"law": {"name": "corrected", "gains": {"k_1": 8.0, "k_d": 2.0}}}
+    fp.sweep(table, path, workers=1)
+    sound, told = content(path), []
+    fp.sweep(turned(table), path, workers=1, progress=lambda *now: told.append(now))
+    assert told == [(100, 100)]
+    assert content(path) == sound
+    fp.sweep({key: table[key] for key in reversed(table)}, tmp_path / "b.zarr", workers=1)
+    assert content(tmp_path / "b.zarr") == sound
+    fp.sweep(turned(table), tmp_path / "c.zarr", workers=1)
+    same(columns(tmp_path / "c.zarr"), columns(path))
+
+
+LAW = """
+def spin(t, state, vehicle, *, k=0.1):
+    return Wrench(vehicle.weight, -k * vehicle.I @ state.omega)
+"""
+
+
+def test_a_store_is_read_without_its_law_and_goes_on_where_both_were_moved(tmp_path):
+    """A folder with study, law and store is renamed; then the store goes to someone who has none of the others."""
+    old, new, alone = (tmp_path / name for name in ("old", "new", "alone"))
+    for folder in (old, alone):
+        folder.mkdir()
+    (old / "mine.py").write_text("from flypend import Wrench\n" + LAW, encoding="utf-8")
+    table = SHORT | {
+        "law": {"function": "mine.py:spin"}, "vary": {**SHORT["vary"], "gains": {"k": {"values": [0.1, 0.2]}}}
+    }  # fmt: skip
+    (old / "study.toml").write_text(toml_text(table), encoding="utf-8")
+    fp.sweep(old / "study.toml", old / "a.zarr", workers=1)
+    before = columns(old / "a.zarr")
+    old.rename(new)
+    told = []
+    fp.sweep(new / "study.toml", new / "a.zarr", workers=1, progress=lambda *now: told.append(now))
+    assert told == [(200, 200)]
+    text = find_store(new / "a.zarr").attributes["study"]
+    assert str(tmp_path) not in text
+    assert 'function = "mine.py:spin"' in text
+    (new / "a.zarr").rename(alone / "a.zarr")
+    (new / "mine.py").unlink()
+    same(columns(alone / "a.zarr"), before)
+    assert bins.Runs(alone / "a.zarr").gather([bins.sphere(find_store(alone / "a.zarr").study, 8)])[0].runs.sum() == 200
+    with pytest.raises(fp.InputError, match="law: expected the study's own law"):
+        fly_range(find_store(alone / "a.zarr").study, 0, 1)
+    (alone / "mine.py").write_text("from flypend import Wrench\n" + LAW.replace("weight", "mass"), encoding="utf-8")
+    (new / "study.toml").rename(alone / "study.toml")
+    with pytest.raises(fp.InputError, match="the equations that it was begun with"):
+        fp.sweep(alone / "study.toml", alone / "a.zarr", workers=1)
+
+
+def test_a_store_whose_study_is_in_the_order_of_its_file_with_an_absolute_path_is_resumed(tmp_path):
+    """So were stores written before."""
+    (tmp_path / "mine.py").write_text("from flypend import Wrench\n" + LAW, encoding="utf-8")
+    study = fp.study(SHORT | {"law": {"function": f"{tmp_path / 'mine.py'}:spin"}})
+    fp.sweep(study, tmp_path / "a.zarr", workers=1)
+    resealed(zarr.open_group(tmp_path / "a.zarr"), study=toml_text(study.settings))
+    fp.sweep(study, tmp_path / "a.zarr", workers=1)
+    assert find_store(tmp_path / "a.zarr").attributes["study"] == toml_text(study.settings)
 
 
 def test_what_no_sweep_has_written_is_neither_continued_nor_removed(tmp_path):

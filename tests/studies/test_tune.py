@@ -3,6 +3,7 @@
 import json
 import math
 import tomllib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from flypend.cli import app as cli
 from flypend.files.toml import toml_text
 from flypend.flight.ensemble import fly_many
 from flypend.flight.simulate import fly
-from flypend.settings.runfile import run_file
+from flypend.report.tuning import summarise
+from flypend.settings.runfile import run_file, run_of
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.design import design
 from flypend.studies.tune import STANDARD, Objective
@@ -45,6 +47,12 @@ def test_the_starts_tuned_on_are_none_of_those_reported():
     tuned, reported = (design(study, 0, 300, stream).packed for stream in (cube.TUNED, cube.REPORTED))
     assert not {tuple(row) for row in tuned} & {tuple(row) for row in reported}
     np.testing.assert_array_equal(reported, design(study, 0, 300).packed)  # what a sweep flies
+
+
+def test_starts_of_a_sobol_sequence_have_no_interval():
+    report = fp.tune(SMALL | {"sampling": "sobol", "tune": SMALL["tune"] | {"generations": 1}}, workers=1).after
+    assert report["wilson_low"] is report["wilson_high"] is None
+    assert "runs succeed (no interval), median" in summarise(report)
 
 
 def test_what_is_reported_is_what_a_sweep_finds(found, tmp_path):
@@ -101,6 +109,12 @@ def test_an_interrupted_search_goes_on_to_the_same_result(tmp_path):
     again = fp.tune(SMALL, workers=1, costs=path, progress=lambda *now: told.append(now))
     assert told == [(2, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
     assert (again.gains, again.history, again.after) == (whole.gains, whole.history, whole.after)
+    turned = {key: SMALL[key] for key in reversed(SMALL)} | {"duration": int(SMALL["duration"])}
+    turned["tune"] = {key: SMALL["tune"][key] for key in reversed(SMALL["tune"])}
+    turned["tune"]["gains"] = {"k_1": [4, 60], "k_d": [0.3, 4]}
+    same = fp.tune(turned, workers=1, costs=path, progress=lambda *now: told.append(now))
+    assert told[5:] == [(4, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
+    assert (same.gains, same.history) == (whole.gains, whole.history)
     with pytest.raises(fp.InputError, match="expected the costs of this search"):
         fp.tune(SMALL | {"seed": 9}, workers=1, costs=path)
 
@@ -153,6 +167,34 @@ def test_with_bands_every_gain_vector_flies_vehicles_drawn_and_the_report_flies_
         fp.tune(study | {"vehicle": "hehn2011"})
     with pytest.raises(fp.InputError, match=r"^tune\.bands: expected a sampled plant"):
         fp.tune(study | {"plant": "ideal"})
+
+
+def test_on_sensors_the_report_flies_the_law_of_the_study_and_that_of_the_run_file(monkeypatch):
+    """Neither is that of the search, in whose one kernel every gain vector shares the calm of the study's gains."""
+    flown = []
+
+    def watched(flight, **_):
+        flown.append(flight)
+        numbers = {name: np.ones(flight.runs) for name in ("settling", "excursion", "effort")}
+        return SimpleNamespace(columns={"success": np.ones(flight.runs, dtype=bool), **numbers})
+
+    monkeypatch.setattr("flypend.studies.tune.fly_many", watched)
+    monkeypatch.setattr("flypend.studies.tune.program_digest", lambda _: "")
+    study = {
+        "vehicle": "hehn2011", "law": {"name": "inverted"}, "plant": {"base": "rotors", "sensors": "mocap"},
+        "duration": 1.0, "runs": 3, "vary": {"start": {"y": "uniform"}},
+        "tune": {"gains": {"rod_damping": [0.3, 1.5]}, "runs": 2, "generations": 1, "population": 2},
+    }  # fmt: skip
+    tuned = fp.tune(study, workers=1)
+    search, before, after = (flight.law for flight in flown)
+    own, again = fp.study(study).law, run_of(tuned.settings()).flight.law
+    assert set(own.prepared["calming"]) - set(search.prepared["calming"]) == {"rod_damping"}
+    assert before.prepared["calming"] == own.prepared["calming"]
+    assert after.prepared["calming"] == again.prepared["calming"] != search.prepared["calming"]
+    assert (after.gains, after.calm) == (again.gains, again.calm)
+    assert after.gains["rod_damping"] == tuned.gains["rod_damping"]
+    assert not flown[1].gains
+    assert not flown[2].gains
 
 
 def test_the_command_leaves_a_file_that_flies(tmp_path, monkeypatch, capsys):

@@ -27,6 +27,7 @@ from flypend.cli.options import (
     path,
     plant_asked,
     refuse_idle,
+    sensors_asked,
     sensors_option,
     vehicle_option,
 )
@@ -132,7 +133,7 @@ def compare(
 @click.option(
     "--rung", multiple=True, help="Fly only this rung; repeatable. Combine departures with commas: 'noise, rod +10 %'."
 )
-@click.option("--sensors", help="Fly a rung for each error of these sensors instead: mocap or onboard.")
+@click.option("--sensors", help="Fly a rung for each error of these sensors instead: mocap, onboard or a TOML file.")
 @bands_option
 def ladder(
     law: tuple[str, ...], out: Path, chosen: Starts, rung: tuple[str, ...], sensors: str | None, bands: bool
@@ -147,7 +148,7 @@ def ladder(
     if bands:
         rungs: Mapping[str, AnyPlant] = band_worlds(machine, plant_asked("rotors", sensors or "perfect"), chosen.seed)
     else:
-        rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors)
+        rungs = rungs_for(machine) if sensors is None else sensor_rungs(sensors_asked(sensors), Path(sensors).name)
     flown = {
         name: rung_named(name, rungs)
         for name in rung or rungs
@@ -348,14 +349,15 @@ def learn(
 
 def fly_study(made: fp.Study, store: Path, *, processes: bool = False, **options: Any) -> None:
     """Fly the study `made` into `store` with these options of `studies.sweep`, and print the success rate."""
-    from flypend.flight.metrics import wilson
+    from flypend.studies.sweep.tally import Tally
 
     tell_how(made.law)
     if isinstance(made.law, fp.Controller) and options.get("scheduler") is None:
         processes = True  # it flies step by step in Python, so that only processes can use more than one core
     with resumable(), counter(rate=True) as tell:
         flown = fp.sweep(made, store, processes=processes, **options, progress=partial(tell, f"flying {made.law.name}"))
-    good, runs = int(flown.success.sum()), made.runs
-    low, high = wilson(good, runs)
-    rate = f"{100 * good / runs:.4g} % (95 % interval {100 * low:.4g} to {100 * high:.4g} %)"
-    console.print(f"{good} of {runs} runs succeed: {rate}. Runs are in {bold(store)}.")
+    tally = Tally(made)
+    for rows in map(made.rows, range(made.chunks)):
+        tally.add(rows, flown.success[rows.start : rows.stop].values)
+    rate = f"{100 * tally.rate:.4g} % ({tally.describe_interval()})"
+    console.print(f"{tally.successes} of {tally.runs} runs succeed: {rate}. Runs are in {bold(store)}.")

@@ -106,7 +106,7 @@ class Ensemble:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson interval of the success rate, 95 %."""
+        """Wilson interval of the success rate, 95 %, if runs are independent: none flies the start of another."""
         return wilson(int(np.sum(self.success)), len(self))
 
     def percentile(self, name: str, q: float) -> float:

@@ -246,3 +246,21 @@ def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, 
     """Return the Wilson interval of a success rate, `successes` out of `runs`, at `confidence`."""
     low, high = wilson_bounds(int(successes), int(runs), confidence)
     return float(low), float(high)
+
+
+def interval_over_starts(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[float, float]:
+    """Return the interval, at `confidence`, of a rate of `successes` out of `runs`, both (n,): those of each start.
+
+    Runs from one start depend on each other. The variance of the rate over starts, which are clusters (Cochran 1977,
+    Sampling Techniques, ch. 9A), says how many independent runs would have it; the interval is Wilson's for that number
+    (Korn and Graubard 1998, Survey Methodology 24, 193-201). They are no fewer than the starts, and no more than the
+    runs. With one run per start this is `wilson`.
+    """
+    flown = np.asarray(runs, dtype=float)
+    starts, total = int(np.count_nonzero(flown)), float(np.sum(flown))
+    rate = float(np.sum(successes)) / max(total, 1.0)
+    spread = float(np.sum((successes - rate * flown) ** 2)) * starts
+    known = rate * (1 - rate) * (starts - 1) * total**2
+    size = min(max(known / spread, starts), total) if spread > 0 else total if known > 0 else starts
+    low, high = wilson_bounds(rate * size, size, confidence)
+    return float(low), float(high)

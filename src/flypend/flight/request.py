@@ -121,7 +121,8 @@ class Flight:
     criterion : Criterion
         Success criterion.
     gains : dict
-        For a batch: gains that differ between runs, name to (n,) or one number.
+        For a batch: gains that differ between runs, name to (n,) or one number. Like gains that are given to the law,
+        they are not calmed; how far the others are follows from the law's own gains.
     times : (t,) increasing, optional
         Times at which states are kept, s; in a sampled flight, the nearest control ticks.
     judge_period : float
@@ -170,7 +171,8 @@ class Flight:
             lag = None if plant.lag else 0.0
             plant = Sampled(limits=plant.limits, lag=lag, rate=self.law.rate, floor=plant.floor)
         put("plant", plant)
-        put("law", Loop(self.vehicle, self.law, self.plant).law)
+        law = self.law.vary(self.gains) if isinstance(self.law, BoundLaw) else self.law
+        put("law", Loop(self.vehicle, law, self.plant).law)
         if self.seed is None:
             put("seed", self.plant.seed if isinstance(self.plant, Sampled) else 0)
         put("times", _check_times(self.times, self.duration))

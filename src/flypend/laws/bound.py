@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType, SimpleNamespace
@@ -147,10 +147,13 @@ class BoundLaw(Feedback):
     computer : Computer
         Lead, prediction and observer around the law in a sampled flight.
     calmer : callable, optional
-        `calmer(share)` returns the law with gains that, near its reference, are moved by `share` from the defaults to
-        those that tremble least under noise (see `calmed`). None for a law without such gains.
+        `calmer(share, varied)` returns the law with gains that, near its reference, are moved by `share` from the
+        defaults to those that tremble least under noise, but for those named in `varied`: always the same object. None
+        for a law without such gains.
     calm : float
         That share, of this law.
+    varied : tuple of str
+        Gains that differ from run to run and would else be moved: their values are given, and stay.
     within_limits : bool
         Whether `evaluate` keeps the wrench within what the rotors of `vehicle` give: see `limited`.
     """
@@ -161,8 +164,9 @@ class BoundLaw(Feedback):
     prepared: Mapping[str, Any] = field(default_factory=dict)
     guard: Guard | None = None
     computer: Computer = field(default_factory=Computer)
-    calmer: Callable[[float], BoundLaw] | None = None
+    calmer: Callable[[float, Iterable[str]], BoundLaw] | None = None
     calm: float = 0.0
+    varied: tuple[str, ...] = ()
     within_limits: bool = False
 
     def __post_init__(self) -> None:
@@ -206,9 +210,17 @@ class BoundLaw(Feedback):
 
         Gains that were given stay.
         """
-        if self.calmer is None or share == self.calm:
+        return self if self.calmer is None or share == self.calm else self._follow(self.calmer(share, self.varied))
+
+    def vary(self, names: Iterable[str]) -> BoundLaw:
+        """Return the law for runs that differ in the gains `names`, whose values stay where the law is calmed."""
+        if self.calmer is None:
             return self
-        found = self.calmer(share)
+        found = self.calmer(self.calm, names)
+        return self if found.varied == self.varied else self._follow(found)
+
+    def _follow(self, found: BoundLaw) -> BoundLaw:
+        """Return the law `found` on the path and the computer of this one."""
         if found.path is self.path and found.computer == self.computer:
             return found
         return replace(found, path=self.path, reference=self.reference, computer=self.computer)

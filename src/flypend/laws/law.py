@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
 from typing import Any
@@ -150,18 +150,24 @@ class Law(Feedback):
         )
         return bound.try_out() if is_own(self.control) else bound
 
-    def _calmer(self, vehicle: Vehicle) -> Callable[[float], BoundLaw] | None:
-        """Return share → the law bound to `vehicle` with gains as calm; None if there are none, or all are given."""
+    def _calmer(self, vehicle: Vehicle) -> Callable[[float, Iterable[str]], BoundLaw] | None:
+        """Return the `calmer` of the law bound to `vehicle`; None if it has no calm gains, or all are given."""
         calm = self.calm
-        if calm is None or not set(calm(vehicle, 1.0)) - set(self.given):
+        calmed = set() if calm is None else set(calm(vehicle, 1.0)) - set(self.given)
+        if calm is None or not calmed:
             return None
+        made: dict[tuple[float, tuple[str, ...]], BoundLaw] = {}
 
-        def calm_by(share: float) -> BoundLaw:
-            bound = self.bind(vehicle)
-            if share == 0:
+        def calm_by(share: float, varied: Iterable[str]) -> BoundLaw:
+            bound, held = self.bind(vehicle), tuple(sorted(calmed & set(varied)))
+            changed = calmed - set(held) if share else set()
+            if not held and not changed:
                 return bound
-            wanted = {name: value for name, value in calm(vehicle, share).items() if name not in self.given}
-            ratios = {name: value / bound.gains[name] for name, value in wanted.items()}
-            return replace(bound, prepared={**bound.prepared, "calming": ratios}, calm=share)
+            ratios = {
+                name: value / bound.gains[name] for name, value in calm(vehicle, share).items() if name in changed
+            }
+            prepared = {**bound.prepared, "calming": ratios} if changed else bound.prepared
+            law = replace(bound, prepared=prepared, calm=share if changed else 0.0, varied=held)
+            return made.setdefault((share, held), law)
 
         return calm_by

@@ -15,11 +15,11 @@ from matplotlib.ticker import MultipleLocator
 
 from flypend import palette
 from flypend.errors import InputError
-from flypend.flight.metrics import wilson
 from flypend.palette import INK
 from flypend.pictures.style import LABEL, PAGE, SMALL, new_figure, symbol
 from flypend.studies.sweep.bins import EDGE, Cells, Runs, check_plane, default_plane, label, plane, side, sphere
 from flypend.studies.sweep.chunk import CAUSES
+from flypend.studies.sweep.tally import Tally
 
 FAILED = [palette.CAUSES[name] for name in CAUSES[1:]]  # success is white
 EMPTY = "#e4e4e4"
@@ -51,7 +51,7 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
 
     If the study varies the initial rod direction, its sphere is shown as two hemispheres in Lambert's equal-area
     projection; a plane of two quantities comes last. Cells without runs are grey. In the success row, cells whose
-    Wilson interval (95 %) is wider than 20 % are hatched.
+    Wilson interval (95 %), in which every start counts once, is wider than 20 % are hatched.
 
     Parameters
     ----------
@@ -69,9 +69,10 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
         If the store has no runs or lacks a quantity.
     """
     runs = Runs(store)
-    panels, names = _panels(runs, x, y, cells)
+    tally = Tally(runs.study)
+    panels, names = _panels(runs, x, y, cells, tally)
     figure = new_figure(PAGE if len(panels) > 1 else 0.6 * PAGE, 9.2)
-    figure.suptitle(_headline(runs, panels[-1].cells), fontsize=LABEL + 1)
+    figure.suptitle(_headline(tally), fontsize=LABEL + 1)
     rows = figure.subplots(4, len(panels), squeeze=False, width_ratios=[1] * (len(panels) - 1) + [1.15])
     total = panels[-1].cells
     _row(figure, rows[0], panels, "success rate (%)", lambda c: 100 * c.rate, "cividis", _rates(panels))
@@ -87,8 +88,10 @@ def map_figure(store: str | Path, *, x: str | None = None, y: str | None = None,
     return figure
 
 
-def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tuple[list[_Panel], tuple[str, str] | None]:
-    """The panels, gathered in one pass over the store, and the quantities of the plane."""
+def _panels(
+    runs: Runs, x: str | None, y: str | None, cells: int | None, tally: Tally
+) -> tuple[list[_Panel], tuple[str, str] | None]:
+    """The panels, gathered in one pass over the store, and the quantities of the plane; `tally` gets all runs."""
     check_plane(runs.study, x, y)
     names = (x, y) if x and y else default_plane(runs)
     grids = []
@@ -101,7 +104,7 @@ def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tupl
         grids.append(grid)
     if not grids:
         raise InputError("store", "a study in which two quantities vary", "fewer")
-    gathered = runs.gather(grids)
+    gathered = runs.gather(grids, tally)
     panels = []
     if len(grids[0].shape) == 3:
         line = np.linspace(-EDGE, EDGE, per_side + 1)
@@ -112,17 +115,15 @@ def _panels(runs: Runs, x: str | None, y: str | None, cells: int | None) -> tupl
     return panels, names
 
 
-def _headline(runs: Runs, cells: Cells) -> str:
+def _headline(tally: Tally) -> str:
     """Title: law, vehicle, plant, duration, and the success rate with its interval."""
-    study = runs.study
-    number, good = int(cells.runs.sum()), int(cells.successes.sum())
-    low, high = wilson(good, number)
+    study = tally.study
     plant = study.settings["plant"]
     plant = plant if isinstance(plant, str) else plant.get("base", "sampled plant")
-    size = f"{number:,}".replace(",", "\u202f")
+    size = f"{tally.runs:,}".replace(",", "\u202f")
     return (
         f"{study.law.name} law on {study.flight.vehicle.name}, plant {plant}, {study.flight.duration:g} s\n"
-        f"{100 * good / number:.4g} % of {size} runs succeed (95 % interval {100 * low:.4g} to {100 * high:.4g} %)"
+        f"{100 * tally.rate:.4g} % of {size} runs succeed ({tally.describe_interval()})"
     )
 
 

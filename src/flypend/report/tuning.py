@@ -30,7 +30,7 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
         (folder / "tuned.toml").write_text(words + run_text(result.settings(), out), encoding="utf-8")
         content = {
             "flypend": __version__,
-            "study": result.study.text(),
+            "study": result.study.text(Path(out)),
             "tune": result.study.tune,
             "before": result.before,
             "after": result.after,
@@ -43,9 +43,10 @@ def write_tuned(result: Tuned, out: str | Path) -> None:
 def summarise(report: dict[str, Any]) -> str:
     """Return one line on `report` (`Tuned.before` or `Tuned.after`): success rate, settling time and cost."""
     settling = "-" if report["settling_p50"] is None else f"{report['settling_p50']:.3g} s"
+    low, high = report["wilson_low"], report["wilson_high"]
+    interval = "no interval" if low is None else f"{100 * low:.4g} to {100 * high:.4g} %"
     return (
-        f"{100 * report['success']:.4g} % of {report['runs']} runs succeed "
-        f"({100 * report['wilson_low']:.4g} to {100 * report['wilson_high']:.4g} %), median settling {settling}, "
+        f"{100 * report['success']:.4g} % of {report['runs']} runs succeed ({interval}), median settling {settling}, "
         f"cost {report['cost']:.4g}"
     )
 

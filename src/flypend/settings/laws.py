@@ -160,10 +160,18 @@ def relative(value: Any, folder: Path) -> Any:
     return _move_paths(value, moved)
 
 
+def drop_folders(value: Any) -> Any:
+    """Return `value`, a law as in `law_from`, with its file path reduced to the file's name, to compare laws."""
+    return _move_paths(value, lambda file: Path(file).name)
+
+
 def _move_paths(value: Any, move: Callable[[str], str]) -> Any:
     """Return `value`, a law as in `law_from`, with `move` of its file paths in their place."""
     if isinstance(value, Mapping):
-        return {**value, **{name: _move_paths(value[name], move) for name in PLACES if name in value}}
+        moved = {name: _move_paths(value[name], move) for name in PLACES if name in value}
+        if isinstance(gains := value.get("gains"), Mapping):  # of which one may be the file of a policy
+            moved["gains"] = {name: _move_paths(gain, move) for name, gain in gains.items()}
+        return {**value, **moved}
     file, attribute = split_place(value) if isinstance(value, str) else ("", "")
     return f"{move(file)}{attribute}" if file else value
 

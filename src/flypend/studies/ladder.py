@@ -102,18 +102,19 @@ def rungs_for(vehicle: Vehicle) -> dict[str, AnyPlant]:
     return found | {", ".join(names): together(names, found) for names in TOGETHER if set(names) <= found.keys()}
 
 
-def sensor_rungs(suite: str) -> dict[str, AnyPlant]:
-    """Return the rungs of the sensors called `suite`: as they are, with each of `DEFECTS` that they can have, and all.
+def sensor_rungs(sensors: Any, name: str = "sensors") -> dict[str, AnyPlant]:
+    """Return the rungs of `sensors`, a suite or a table: as they are, with each of `DEFECTS` they can have, and all.
 
-    The last is the plant "laboratory", whatever the suite. Raises InputError for an unknown suite.
+    The first is called like the suite; for a table, `name`. The last is the plant "laboratory", whatever the sensors.
+    Raises InputError for an unknown suite, an invalid table and perfect sensors.
     """
-    base = sensors_called(suite, "--sensors")
+    base = sensors_called(sensors, "--sensors")
     if base is None:
-        raise InputError("--sensors", "sensors that can be wrong", repr(suite))
-    found: dict[str, AnyPlant] = {suite: ROTORS.replace(sensors=base)}
-    for name, changes in DEFECTS.items():
+        raise InputError("--sensors", "sensors that can be wrong", repr(sensors))
+    found: dict[str, AnyPlant] = {sensors if isinstance(sensors, str) else name: ROTORS.replace(sensors=base)}
+    for defects, changes in DEFECTS.items():
         if all(defect not in NEEDS or NEEDS[defect] in base.streams for defect in changes):
-            found[name] = ROTORS.replace(sensors=base.replace(**changes))
+            found[defects] = ROTORS.replace(sensors=base.replace(**changes))
     return found | {"laboratory": PRESETS["laboratory"]}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -19,16 +19,18 @@ from flypend.files.reading import parse_json, read_bytes
 from flypend.files.schema import Field, check_arrays
 from flypend.flight.ensemble import fly_many
 from flypend.flight.metrics import wilson
+from flypend.laws import BoundLaw, Controller
 from flypend.model import State
 from flypend.model.state import SHAPES
 from flypend.plants import AnyPlant, Sampled
 from flypend.plants.bands import check_bands
+from flypend.settings.laws import law_from
 from flypend.settings.runfile import record_at
 from flypend.studies.bands import worlds_within
 from flypend.studies.sweep import cube
 from flypend.studies.sweep.chunk import program_digest
 from flypend.studies.sweep.design import design
-from flypend.studies.sweep.study import Study
+from flypend.studies.sweep.study import Study, canonical
 from flypend.studies.sweep.study import study as study_from
 
 KEYS = ("gains", "objective", "bands", "runs", "generations", "population", "seed", "step")
@@ -41,7 +43,7 @@ LATE, FAR = 2.0, 100.0
 MOST_REPORTED = 20_000
 DRAWN, MOST_DRAWN = 32, 64  # vehicles; gains tuned on eight fit those eight, and are no better on others
 # The file of the costs: this word, and bytes, of which a generation takes some 300.
-KIND, MOST_BYTES = "flypend tune 1", 2**26
+KIND, MOST_BYTES = "flypend tune 2", 2**26
 GENERATION = {"costs": Field(("point",))}
 
 
@@ -92,8 +94,9 @@ class Tuned:
     gains : dict
         The best gains.
     before, after : dict
-        Cost, success rate with its interval, settling time and excursion of the initial and the tuned gains, on the
-        starts of the study (at most 20 000), which are held out from tuning.
+        Of the law as it was and with the tuned gains given, as a run file of `settings` flies it: cost, success rate
+        with its Wilson interval (None for starts of a Sobol sequence), settling time and excursion, on the starts of
+        the study (at most 20 000), held out from tuning.
     history : list of dict
         By generation: runs flown so far, best and median cost on the tuning starts, and the centre of the search.
     """
@@ -107,11 +110,13 @@ class Tuned:
     def settings(self) -> dict[str, Any]:
         """Return the content of a run file with the tuned gains, for `flypend run`: the first flight of `after`."""
         from_study = self.study.settings
-        law = dict(from_study["law"])
-        law["gains"] = {**law.get("gains", {}), **self.gains}
         start = State.trusted(design(self.study, 0, 1, cube.REPORTED).packed[0])
         kept = {key: from_study[key] for key in ("duration", "rtol", "plant", "vehicle")}
-        return {**kept, "law": law, "start": {name: getattr(start, name).tolist() for name in SHAPES}}
+        return {
+            **kept,
+            "law": _law_with(self.study, self.gains),
+            "start": {name: getattr(start, name).tolist() for name in SHAPES},
+        }
 
 
 @errors.named_arguments
@@ -154,7 +159,8 @@ def tune(
     task = _Task(made)
     search = _search(task)
     bands = made.flight.vehicle.bands if task.bands else ""
-    kept = _Costs(None if costs is None else Path(costs), f"{made.text()}{made.tune}{program_digest(made)}{bands}")
+    identity = f"{canonical({**made.settings, 'tune': made.tune})}{program_digest(made)}{bands}"
+    kept = _Costs(None if costs is None else Path(costs), identity)
     history: list[dict[str, Any]] = []
     best, least = task.start, np.inf
     progress(min(kept.generations, task.generations), task.generations)
@@ -175,7 +181,14 @@ def tune(
             break
     gains = task.gains(best)
     own = {name: made.law.numbers[name] for name in gains}
-    return Tuned(made, gains, task.report(own, workers), task.report(gains, workers), history)
+    tuned = law_from(_law_with(made, gains)).bind(made.flight.vehicle)
+    return Tuned(made, gains, task.report(made.law, own, workers), task.report(tuned, gains, workers), history)
+
+
+def _law_with(study: Study, gains: Mapping[str, float]) -> dict[str, Any]:
+    """The table of the law of `study` with these `gains`."""
+    law: dict[str, Any] = study.settings["law"]
+    return {**law, "gains": {**law.get("gains", {}), **gains}}
 
 
 class _Costs:
@@ -283,15 +296,16 @@ class _Task:
     def costs(self, points: Any, workers: int | None) -> Any:
         """Return the mean cost of each of `points`, all flown in one call from the tuning starts."""
         values = np.array([list(self.gains(point).values()) for point in points])
-        columns = self._fly(values, self.runs, cube.TUNED, workers)
+        columns = self._fly(self.study.law, self.names, values, self.runs, cube.TUNED, workers)
         return self.objective.cost(columns, self.study.flight.duration).mean(axis=1)
 
-    def report(self, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
-        """Return the statistics of `gains` on the first `MOST_REPORTED` starts of the study."""
+    def report(self, law: BoundLaw | Controller, gains: dict[str, float], workers: int | None) -> dict[str, Any]:
+        """Return the statistics of a `law` with these `gains` on the first `MOST_REPORTED` starts of the study."""
         runs = min(self.study.samples, MOST_REPORTED)
-        columns = self._fly(np.array([list(gains.values())]), runs, cube.REPORTED, workers)
+        columns = self._fly(law, (), np.empty((1, 0)), runs, cube.REPORTED, workers)
         success = columns["success"]
-        low, high = wilson(int(success.sum()), runs)
+        independent = self.study.sampling == "uniform"
+        low, high = wilson(int(success.sum()), runs) if independent else (None, None)
         settled = columns["settling"][success]
         return {
             "gains": gains,
@@ -304,9 +318,14 @@ class _Task:
             "excursion_p95": float(np.percentile(np.nan_to_num(columns["excursion"], nan=np.inf), 95)),
         }
 
-    def _fly(self, values: Any, runs: int, stream: int, workers: int | None) -> dict[str, Any]:
-        """Metrics (k, runs) of `runs` runs under each of k rows of gains `values`, on each world in turn."""
-        flight = self.study.flight
+    def _fly(
+        self, law: BoundLaw | Controller, names: Sequence[str], values: Any, runs: int, stream: int, workers: int | None
+    ) -> dict[str, Any]:
+        """Metrics (k, runs) of `runs` runs of a `law` under each of k rows of `values` of the gains `names`.
+
+        The runs fly on each world in turn.
+        """
+        flight = self.study.flight.replace(law=law)
         worlds: list[AnyPlant] = [flight.plant]
         if self.bands and isinstance(flight.plant, Sampled):  # those of vehicles drawn, others for the report
             seed = 2 * self.seed + (stream == cube.REPORTED)
@@ -317,7 +336,7 @@ class _Task:
         found = []
         for i, world in enumerate(worlds[:runs]):
             own, seed = starts[i :: len(worlds)], (flight.seed or 0) + i * runs * len(values)
-            gains = dict(zip(self.names, np.repeat(values, len(own), axis=0).T, strict=True))
+            gains = dict(zip(names, np.repeat(values, len(own), axis=0).T, strict=True))
             packed = State.trusted(np.tile(own, (len(values), 1)))
             one = flight.replace(starts=packed, gains=gains, plant=world, seed=seed)
             flown = fly_many(one, workers=workers).columns
@@ -326,7 +345,7 @@ class _Task:
 
 
 def _limits(made: Study) -> dict[str, tuple[float, float]]:
-    """Return the range of each gain to be tuned. Raises InputError."""
+    """Return the range of each gain to be tuned, in the order of the law's gains. Raises InputError."""
     bounds = made.tune.get("gains")
     if bounds is None and set(STANDARD) <= made.law.numbers.keys():
         bounds = {name: [made.law.numbers[name] / SPAN, made.law.numbers[name] * SPAN] for name in STANDARD}
@@ -342,7 +361,7 @@ def _limits(made: Study) -> dict[str, tuple[float, float]]:
         if not low <= made.law.numbers[name] <= high:
             raise InputError(f"tune.gains.{name}", f"a range around {made.law.numbers[name]:g}", [low, high])
         limits[name] = (low, high)
-    return limits
+    return {name: limits[name] for name in made.law.numbers if name in limits}
 
 
 def _search(task: _Task) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,12 @@ import numpy as np
 from flypend.errors import InputError, one_of
 from flypend.flight.metrics import wilson_bounds
 from flypend.geometry import norm
-from flypend.studies.sweep.axes import ANGLES
+from flypend.studies.sweep.axes import ANGLES, Axis
 from flypend.studies.sweep.chunk import CAUSES
 from flypend.studies.sweep.design import design
 from flypend.studies.sweep.store import find_store
 from flypend.studies.sweep.study import Study
+from flypend.studies.sweep.tally import Tally
 
 # Target number of runs per cell, and bounds on the number of cells per side.
 PER_CELL, LEAST, MOST = 400, 8, 64
@@ -34,6 +36,7 @@ class Cells:
     settling: Any  # (n,), mean settling time over the successes, s; NaN if there are none
     excursion: Any  # (n,), mean excursion over all runs, m; NaN if there are none
     causes: Any  # (k, n), number of runs by cause, in the order of `flypend.studies.sweep.chunk.CAUSES`
+    repeats: int = 1  # runs from each start that a cell has
 
     @cached_property
     def rate(self) -> Any:
@@ -42,8 +45,8 @@ class Cells:
 
     @cached_property
     def width(self) -> Any:
-        """Width (n,) of the 95 % Wilson interval of the success rate."""
-        low, high = wilson_bounds(self.successes, self.runs)
+        """Width (n,) of the 95 % Wilson interval of the success rate, in which every start counts once."""
+        low, high = wilson_bounds(self.successes / self.repeats, self.runs / self.repeats)
         return high - low
 
 
@@ -54,6 +57,7 @@ class Grid:
     shape: tuple[int, ...]
     columns: tuple[str, ...]  # those that `place` needs
     place: Callable[[dict[str, Any]], Any]  # columns → the flat index of each run's cell (n,)
+    repeats: int = 1  # times that each start of a cell is flown in it, at other points of the study's grid
 
 
 class Runs:
@@ -72,8 +76,8 @@ class Runs:
         """Number of runs flown."""
         return sum(len(self.study.rows(number)) for number in self._numbers)
 
-    def gather(self, grids: Sequence[Grid]) -> list[Cells]:
-        """Return the statistics of the cells of each of `grids`, in one pass over the store.
+    def gather(self, grids: Sequence[Grid], tally: Tally | None = None) -> list[Cells]:
+        """Return the statistics of the cells of each of `grids`, in one pass over the store; `tally` gets all runs.
 
         Raises InputError for a chunk that does not match its digest.
         """
@@ -83,7 +87,9 @@ class Runs:
             chunk = self._store.read(number, sorted(needed))
             for grid, total in zip(grids, sums, strict=True):
                 total += _count(chunk, grid.place(chunk), total.shape[1])
-        return [_cells(total) for total in sums]
+            if tally is not None:
+                tally.add(self.study.rows(number), chunk["cause"] == 0)
+        return [_cells(total, grid.repeats) for total, grid in zip(sums, grids, strict=True)]
 
 
 def _count(chunk: dict[str, Any], place: Any, cells: int) -> Any:
@@ -98,9 +104,9 @@ def _count(chunk: dict[str, Any], place: Any, cells: int) -> Any:
     return np.concatenate([np.stack(rows), joint.reshape(len(CAUSES), cells)])
 
 
-def _cells(total: Any) -> Cells:
+def _cells(total: Any, repeats: int) -> Cells:
     runs, causes = total[0], total[3:]
-    return Cells(runs, causes[0], _over(total[1], causes[0]), _over(total[2], runs), causes)
+    return Cells(runs, causes[0], _over(total[1], causes[0]), _over(total[2], runs), causes, repeats)
 
 
 def _over(sums: Any, numbers: Any) -> Any:
@@ -127,7 +133,7 @@ def sphere(study: Study, cells: int) -> Grid:
         column, row = (np.clip((flat[:, i] / EDGE + 1) / 2 * cells, 0, cells - 1).astype(np.int64) for i in range(2))
         return (np.where(upper, 0, 1) * cells + row) * cells + column
 
-    return Grid((2, cells, cells), ("y",), place)
+    return Grid((2, cells, cells), ("y",), place, study.cells)
 
 
 def lambert(y: Any) -> tuple[Any, Any]:
@@ -162,8 +168,12 @@ def quantities(study: Study) -> list[str]:
     drawn = design(study, 0, 1).columns
     by_vector = [name for name, (column, _) in QUANTITIES.items() if column in drawn and name not in drawn]
     angles = [name for name in ANGLES if name in drawn]
-    others = [f"{axis.group}.{axis.name}" for axis in study.axes if axis.group != "start"]
-    return by_vector + angles + others
+    return by_vector + angles + [quantity(axis) for axis in study.axes if axis.group != "start"]
+
+
+def quantity(axis: Axis) -> str:
+    """Return the name of an axis of a study as that of a quantity."""
+    return axis.name if axis.group == "start" else f"{axis.group}.{axis.name}"
 
 
 def check_plane(study: Study, x: str | None, y: str | None) -> None:
@@ -200,7 +210,8 @@ def plane(runs: Runs, names: tuple[str, str], cells: int) -> tuple[Grid, tuple[A
         return row * shape[1] + column
 
     columns = tuple(name if name in runs.names else QUANTITIES[name][0] for name in names)
-    return Grid(shape, columns, place), (edges[0], edges[1])
+    points = prod(len(np.unique(axis.values)) for axis in runs.study.grid if quantity(axis) in names)
+    return Grid(shape, columns, place, runs.study.cells // points), (edges[0], edges[1])
 
 
 def _values(chunk: dict[str, Any], name: str, study: Study) -> Any:

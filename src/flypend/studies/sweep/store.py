@@ -21,12 +21,10 @@ import numpy as np
 from flypend.errors import InputError, require
 from flypend.files.reading import MOST_TEXT, parse_json, read_bytes, read_text
 from flypend.files.schema import check_arrays, check_attributes
-from flypend.files.toml import parse_toml
 from flypend.studies.sweep import layout
 from flypend.studies.sweep.claim import check_path, clear, remove
 from flypend.studies.sweep.layout import MARKS
-from flypend.studies.sweep.study import Study
-from flypend.studies.sweep.study import study as study_from
+from flypend.studies.sweep.study import Study, comparable, study_in
 
 METADATA = "zarr.json"
 ATTRIBUTES = ("study", "program", "vehicle", "law", "e3", "seal", "id")
@@ -34,17 +32,17 @@ _NUMBER = re.compile(r"\d{1,9}")
 
 
 class Store:
-    """The store at `path`: reads, writes and verifies chunks.
+    """The store of `study` at `path`: reads, writes and verifies chunks.
 
     Raises InputError, if `writable` is false, for arrays whose metadata are not those of the study; they are restored
     otherwise.
     """
 
-    def __init__(self, path: Path, group: Any, *, writable: bool) -> None:
+    def __init__(self, path: Path, group: Any, study: Study, *, writable: bool) -> None:
         self.path = path
         self._group = group
         self.attributes = dict(group.attrs)
-        self.study: Study = _study_in(path, self.attributes)
+        self.study = study
         self._fields = layout.columns_of(self.study)
         self._arrays = self._open(writable)
         self._marks: Any = self._arrays.pop(MARKS)
@@ -193,7 +191,7 @@ def open_store(path: str | Path, study: Study, program: str, versions: Mapping[s
     path = check_path(path)
     attributes: dict[str, Any] = {
         "flypend": "sweep",
-        "study": study.text(),
+        "study": study.text(path.parent),
         "program": program,
         "versions": dict(versions),
         "vehicle": study.flight.vehicle.name,
@@ -203,23 +201,30 @@ def open_store(path: str | Path, study: Study, program: str, versions: Mapping[s
     clear(path)
     if not path.exists():
         layout.create(path, study, {**attributes, "id": uuid4().hex, "seal": _seal(attributes)})
-    store = find_store(path, writable=True)
-    _check_same(path, store.attributes, attributes)
-    return store
+    group = _sealed_group(path)
+    _study_in(path, dict(group.attrs))  # raises for one that cannot be compared
+    _check_same(path, dict(group.attrs), attributes)
+    return Store(path, group, study, writable=True)
 
 
-def find_store(path: str | Path, *, writable: bool = False) -> Store:
-    """Open the store at `path`. Raises InputError unless a sweep has written it, and, to read, its metadata are whole.
+def find_store(path: str | Path) -> Store:
+    """Open the store at `path` for reading. Raises InputError unless a sweep has written it and its metadata are whole.
 
-    `writable` restores damaged metadata; the caller then holds the lock.
+    Its study is without its law: see `study_in`.
     """
     path = check_path(path)
+    group = _sealed_group(path)
+    return Store(path, group, _study_in(path, dict(group.attrs)), writable=False)
+
+
+def _sealed_group(path: Path) -> Any:
+    """The Zarr group of a sweep at `path`. Raises InputError unless its attributes are as they were written."""
     group = _group_at(path)
     attributes = dict(group.attrs)
     if attributes.get("seal") != _seal(attributes) or not isinstance(attributes.get("id"), str):
         wanted = "the attributes that a sweep has written (--force replaces the store)"
         raise InputError(str(path), wanted, "others: they were changed, or are of another version of flypend")
-    return Store(path, group, writable=writable)
+    return group
 
 
 def discard(path: str | Path) -> None:
@@ -257,10 +262,10 @@ def _seal(attributes: Mapping[str, Any]) -> str:
 
 
 def _study_in(path: Path, attributes: Mapping[str, Any]) -> Study:
-    """The study of a store. Raises InputError if it cannot be built here, as without the file of its law."""
+    """The study of a store, without its law. Raises InputError if it cannot be read."""
     try:
-        text = check_attributes(dict.fromkeys(ATTRIBUTES, str), attributes)["study"]
-        return study_from(parse_toml("study", text))
+        texts = check_attributes(dict.fromkeys(ATTRIBUTES, str), attributes)
+        return study_in(texts["study"], texts["law"], texts["e3"])
     except InputError as error:
         wanted = f"a store whose study can be read ({error.field}: expected {error.expected})"
         raise InputError(str(path), wanted, error.got) from None
@@ -269,13 +274,14 @@ def _study_in(path: Path, attributes: Mapping[str, Any]) -> Study:
 def _check_same(path: Path, found: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
     """Raise InputError, naming the first difference, unless the store belongs to this study."""
     there, here = (
-        _flat({"study": tomllib.loads(each["study"]), "versions": each["versions"]}) for each in (found, wanted)
+        _flat({"study": comparable(tomllib.loads(each["study"])), "versions": each["versions"]})
+        for each in (found, wanted)
     )
     for key in sorted(set(there) | set(here)):
         if there.get(key) != here.get(key):
             which = f"{there.get(key, 'nothing')}, as in {path} (--force replaces it)"
             raise InputError(key.removeprefix("study."), which, here.get(key, "nothing"))
-    if found["seal"] != _seal(wanted):
+    if any(found[key] != wanted[key] for key in ("program", "vehicle", "law", "e3")):
         raise InputError(str(path), "the equations that it was begun with (--force replaces it)", "others")
 
 

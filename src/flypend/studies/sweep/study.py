@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import asdict, dataclass, field
@@ -13,16 +14,17 @@ import numpy as np
 
 from flypend import errors
 from flypend.errors import InputError
-from flypend.files.toml import read_toml, toml_text
+from flypend.files.toml import parse_toml, read_toml, toml_text
 from flypend.flight.criterion import Criterion
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, check_judged
 from flypend.flight.sampled import is_random
-from flypend.laws import BoundLaw, Controller
+from flypend.laws import BoundLaw, Controller, Law
 from flypend.laws.by_name import THEOREM_1
-from flypend.model import Vehicle
+from flypend.model import Vehicle, Wrench
 from flypend.model.by_name import vehicle_table
+from flypend.model.state import E3Direction
 from flypend.plants import AnyPlant, Ideal, Sampled
-from flypend.settings.laws import absolute, law_from, law_table, table_of
+from flypend.settings.laws import absolute, drop_folders, law_from, law_table, relative, table_of
 from flypend.settings.runfile import STUDY_KEYS, check_plain, plant_of, record_at, shallow, start_of, table_at
 from flypend.studies.sweep.axes import Axis, axes
 from flypend.studies.sweep.cube import SAMPLINGS, check_size
@@ -123,9 +125,13 @@ class Study:
         """The law of the study."""
         return self.flight.law
 
-    def text(self) -> str:
-        """Return the study as TOML, every default spelt out, without the table `tune`."""
-        return toml_text(self.settings)
+    def text(self, folder: Path | None = None) -> str:
+        """Return the study as TOML, keys sorted, every default spelt out, without the table `tune`.
+
+        The file of its law is relative to `folder`; by default its path is absolute.
+        """
+        law = self.settings["law"]
+        return toml_text(_sorted({**self.settings, "law": law if folder is None else relative(law, folder)}))
 
     def plant_at(self, cell: int) -> AnyPlant:
         """Return the plant of cell `cell` of the grid."""
@@ -167,14 +173,58 @@ def study(what: str | Path | Mapping[str, Any], law: str | None = None) -> Study
         return _build(settings)
 
 
-def _build(given: dict[str, Any]) -> Study:
+def study_in(text: str, name: str, e3: E3Direction) -> Study:
+    """Return the study in the TOML string `text` of a store, to read its runs: without its law, which may not be there.
+
+    In its place is a law of that `name` and frame that does not fly. Raises InputError.
+    """
+    given = parse_toml("study", text)
+    gains = table_at(table_at(given, "vary"), "gains", "vary.gains")
+    stand_in = Law(name=name, e3=e3, control=_refuse, gains=dict.fromkeys(gains, 1.0))
+    with shallow("study"), np.errstate(all="ignore"):
+        return _build(given, stand_in)
+
+
+def _refuse(*_: Any, **__: Any) -> Wrench:
+    raise InputError("law", "the study's own law, to fly it", "a store")
+
+
+def comparable(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the `settings` of a study to compare with others: its law's file may be in another folder."""
+    return {**settings, "law": drop_folders(settings["law"])}
+
+
+def canonical(settings: Mapping[str, Any]) -> str:
+    """Return the `settings` of a study as text that is the same for any order of keys, `5` or `5.0`, and folder."""
+    return json.dumps(_floats(comparable(settings)), sort_keys=True)
+
+
+def _floats(value: Any) -> Any:
+    """Return `value` with integers as floats, where these are equal."""
+    if isinstance(value, Mapping):
+        return {key: _floats(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_floats(entry) for entry in value]
+    return float(value) if type(value) is int and float(value) == value else value
+
+
+def _sorted(value: Any) -> Any:
+    """Return `value` with the keys of its tables sorted."""
+    if isinstance(value, Mapping):
+        return {key: _sorted(value[key]) for key in sorted(value)}
+    return [_sorted(entry) for entry in value] if isinstance(value, list) else value
+
+
+def _build(given: dict[str, Any], stand_in: Law | None = None) -> Study:
+    """The study that `given` specifies; under the law `stand_in`, if there is one, instead of its own."""
     errors.only_known("", given, KEYS)
     for key in ("vehicle", "law", "duration"):
         if key not in given:
             raise InputError(key, "a value", "nothing")
     start, vary = _start(given)
-    flight = _flight(given, start, vary)
-    found = axes(vary, flight.law, isinstance(flight.plant, Sampled))
+    flight = _flight(given, start, vary, stand_in)
+    # A law in Python flies sampled through the ideal plant, too, which has no numbers to vary.
+    found = axes(vary, flight.law, isinstance(plant_of(given.get("plant", "rotors")), Sampled))
     errors.check_kind("final", given.get("final", False), bool)
     # Sorted, so that the sample does not depend on the order of the keys in the file.
     order = {"plant": 0, "gains": 1, "start": 2}
@@ -203,7 +253,7 @@ def _build(given: dict[str, Any]) -> Study:
     return made
 
 
-def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) -> Flight:
+def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any], stand_in: Law | None) -> Flight:
     """The request that all runs share, except for what varies."""
     exact = Tolerances(
         rtol=errors.number("rtol", given.get("rtol", 1e-6), above=0),
@@ -214,7 +264,7 @@ def _flight(given: dict[str, Any], start: dict[str, Any], vary: dict[str, Any]) 
     leans = {"y", "tilt", "azimuth"} & table_at(vary, "start").keys()  # from e₃
     flight = Flight(
         vehicle=vehicle,
-        law=law_from(law_table(given["law"])).bind(vehicle),
+        law=(stand_in or law_from(law_table(given["law"]))).bind(vehicle),
         starts=start_of({"y": [0.0, 0.0, 1.0], **start} if leans else start),
         duration=given["duration"],
         plant=plant_of(given.get("plant", "rotors")),

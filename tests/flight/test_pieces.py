@@ -58,6 +58,17 @@ def test_it_is_the_flight_of_the_ordinary_kernel(through):
     np.testing.assert_allclose(in_pieces(loop_of(through)), at_once(loop_of(through)), atol=1e-9)
 
 
+def test_a_flight_begins_with_the_random_numbers_of_its_seed():
+    through = REAL.replace(seed=7)
+    flight = Flight(vehicle=MACHINE, law=fp.laws.inverted().bind(MACHINE), starts=START, duration=0.2, plant=through)
+    rows = pieces_kernel(flight.loop, CRITERION).begin(START, seed=flight.seed).advance(100)
+    whole = fp.simulate(MACHINE, fp.laws.inverted(), START, 0.2, plant=through, times=np.arange(101) / 500)
+    np.testing.assert_allclose(rows[:, :24], whole.packed, atol=1e-9)
+    kernel = pieces_kernel(loop_of(through), CRITERION)
+    assert np.array_equal(kernel.begin(START).advance(100), rows)
+    assert not np.array_equal(kernel.begin(START, seed=0).advance(100), rows)
+
+
 def test_another_delay_is_that_of_a_plant_that_has_it():
     law = fp.laws.inverted()
     for delay in (0.0, 0.0013, 0.002, 0.0095, 0.02):

@@ -18,7 +18,7 @@ from flypend.building import built
 from flypend.compile.numeric import as_numpy
 from flypend.flight.ensemble import fly_many
 from flypend.flight.kernels import IdealKernel
-from flypend.flight.kernels.launch import Solution, sampled_samples
+from flypend.flight.kernels.launch import Solution, last_tick, sampled_samples
 from flypend.flight.kernels.pieces import PiecesKernel
 from flypend.flight.live import PERIOD
 from flypend.flight.outcome import NOT_ENOUGH, Outcome
@@ -124,7 +124,7 @@ def _fly_through_pokes(setting: Setting, machine: Tuned, pieces: PiecesKernel, g
             rows.append(flown.advance(tick - flown.ticks, blow))
             blow = np.zeros(6)
     outcome, every = flown.outcome, np.concatenate(rows)
-    end = min(int(np.floor(outcome.time * plant.rate + 1e-6)), len(every) - 1)
+    end = min(last_tick(outcome, plant), len(every) - 1)
     whole = flight.replace(duration=last / plant.rate)
     kept = nearest_ticks(whole.moments, plant, whole.duration)
     kept = np.append(kept[kept < end], end)

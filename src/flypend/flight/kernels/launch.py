@@ -119,17 +119,21 @@ def sampled_samples(
     )  # fmt: skip
     ticks = nearest_ticks(flight.moments, plant, flight.duration)
     flown = fly(keep_at=ticks)
-    code, end = int(flown.code[0]), float(flown.end[0])
-    if code != runge_kutta.COMPLETED:  # the end of a run is known once it has been flown
-        # A rod touches after one tick, and at the latest at the next.
-        last = max(0, int(np.ceil(end * plant.rate - 1e-6)) - (code == runge_kutta.COLLIDED))
+    outcome = outcome_of(kernel.loop, flown.code, flown.end, flown.part)
+    if outcome.status != "completed":  # the end of a run is known once it has been flown
+        last = last_tick(outcome, plant)
         ticks = np.append(ticks[ticks < last], last)
         flown = fly(keep_at=ticks)
     t, samples = ticks / plant.rate, flown.samples[0]
-    kept = t <= end + 1e-9
-    packed = convert_packed(samples[kept, :SIZE], law.e3)
-    outcome = outcome_of(kernel.loop, flown.code, flown.end, flown.part)
-    return Samples(t[kept], packed, samples[kept, SIZE:], outcome)
+    return Samples(t, convert_packed(samples[:, :SIZE], law.e3), samples[:, SIZE:], outcome)
+
+
+def last_tick(outcome: Outcome, plant: Sampled) -> int:
+    """Return the last control tick of a flight through `plant` with this `outcome`.
+
+    A rod touches after a tick, and at the latest at the next one, which the flight does not reach.
+    """
+    return max(0, int(np.ceil(outcome.time * plant.rate - 1e-6)) - (outcome.status == "collided"))
 
 
 def reasons(loop: Loop, steps: int = MAX_STEPS) -> dict[int, str]:

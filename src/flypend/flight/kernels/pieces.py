@@ -86,12 +86,15 @@ class PiecesKernel:
     function: Any
     room: int
 
-    def begin(self, start: State, *, seed: int = 0, gains: Mapping[str, float] | None = None) -> PiecewiseFlight:
+    def begin(
+        self, start: State, *, seed: int | None = None, gains: Mapping[str, float] | None = None
+    ) -> PiecewiseFlight:
         """Begin a flight from `start`, in the law's frame, with the random numbers of `seed`.
 
-        The rotors give their least force. `gains` are values of gains that are inputs, default those of the law.
+        The default is the seed of the plant; that of a `Flight` is no part of its `loop`. The rotors give their least
+        force. `gains` are values of gains that are inputs, default those of the law.
         """
-        return PiecewiseFlight(self, start, seed, gains or {})
+        return PiecewiseFlight(self, start, self.loop.sampled.seed if seed is None else seed, gains or {})
 
 
 def pieces_kernel(loop: Loop, criterion: Criterion) -> PiecesKernel:

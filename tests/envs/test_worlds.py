@@ -655,6 +655,36 @@ def test_what_has_been_flown_is_a_run(tmp_path):
     assert (tmp_path / "a.html").stat().st_size > 1e5
 
 
+@pytest.mark.parametrize(
+    ("arguments", "action", "outcome"),
+    [
+        ({"task": "swing_up", "duration": 0.2}, 0.0, "completed at 0.2 s"),
+        ({"task": "balance"}, -1.0, r"completed at 0\..* s: the task Balance ended the episode"),
+        (
+            {"task": "swing_up", "plant": PHYSICS.replace(floor=-0.8)},
+            -1.0,
+            r"collided at .* s: the rod touched the floor",
+        ),
+        ({"task": "swing_up"}, np.nan, r"diverged at 0\.01 s: state or action was not finite.*"),
+    ],
+    ids=["duration", "task", "floor", "lost"],
+)
+def test_a_run_ends_with_the_last_state_and_says_why(arguments, action, outcome):
+    world, seen, over, steps = World(**arguments), None, False, 0
+    world.reset(seed=0)
+    while not over:
+        seen, _, terminated, truncated, _ = world.step(np.full(4, action))
+        over, steps = terminated or truncated, steps + 1
+    run = world.trajectory()
+    assert len(run.t) == steps + 1
+    assert np.allclose(run.packed[-1, [0, 1, 2, 18, 19, 20]], seen[[0, 1, 2, 18, 19, 20]], rtol=1e-6)
+    assert re.fullmatch(outcome, str(run.outcome))
+    copied = copy.deepcopy(world).trajectory()
+    assert copied.outcome == run.outcome
+    world.reset(seed=0)
+    assert world.trajectory().outcome == fp.Outcome("completed", 0.0)
+
+
 def test_a_rotation_that_a_task_draws_is_one_and_any_is_as_likely():
     draws = Draws()
     R = draws.rotation()

@@ -1,5 +1,7 @@
 """The learned law: symmetric, at rest in hover, better than the tuned law, and a law like any other."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -59,6 +61,14 @@ def test_its_wrench_is_one_that_the_rotors_give():
 def test_the_shipped_policies_are_small():
     for name in policy_names():
         assert policy(name).size <= MOST_WEIGHTS
+
+
+def test_pages_say_their_sizes():
+    docs = Path(__file__).parents[2] / "docs"
+    own, hub = policy("hehn2011").size, policy("hehn2011-hub").size
+    appendix = (docs / "learning" / "learned-appendix.md").read_text(encoding="utf-8")
+    assert f"The network has {own:,} weights, {hub:,} on a hub." in appendix
+    assert f"A network of {own:,} weights" in (docs / "gallery.md").read_text(encoding="utf-8")
 
 
 def test_it_is_better_than_the_tuned_law():

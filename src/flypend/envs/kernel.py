@@ -23,6 +23,7 @@ from flypend.compile.numeric import allocate_aligned
 from flypend.compile.problem import WorldsProblem
 from flypend.envs.problem import Environment, problem
 from flypend.errors import InputError
+from flypend.model.state import SIZE
 
 WIDTH = 8
 # Fewest groups of worlds worth a thread: a hundred microseconds of work.
@@ -80,8 +81,10 @@ class Worlds:
 
     `observations` (count, k) and `rewards` (count,) are float32, `terminated` and `truncated` (count,) bool. A world
     that ends begins anew in the same step: its row of `observations` is that of its new beginning, and its row of
-    `last` (count, k) is what would have been observed at the end. `seen` (count, (n + 1) k), which `remember` fills, is
-    what a learner gets: one observation, `late` by as many actions, and a `history` of n earlier ones.
+    `last` (count, k) is what would have been observed at the end; those of `ends` (count, 24 + n) and `causes` (count,)
+    are its last state with rotor forces, and why it ended (see `compile.llvm.worlds`). `seen` (count, (n + 1) k), which
+    `remember` fills, is what a learner gets: one observation, `late` by as many actions, and a `history` of n earlier
+    ones.
 
     All that changes is in `arrays`, a table of plain arrays that nothing else owns. A pickle holds them and what the
     worlds are made of; the rest is made again where it is loaded.
@@ -89,6 +92,7 @@ class Worlds:
 
     observations, last, rewards = _rows("observations"), _rows("last"), _rows("rewards")
     terminated, truncated = _rows("terminated"), _rows("truncated")
+    ends, causes = _rows("ends"), _rows("causes")
 
     def __init__(
         self, env: Environment, count: int, workers: int | None = None, history: int = 0, late: int = 0
@@ -107,6 +111,8 @@ class Worlds:
             "terminated": (padded, np.bool_),
             "truncated": (padded, np.bool_),
             "last": (padded, seen, np.float32),
+            "ends": (padded, SIZE + env.rotors, np.float64),
+            "causes": (padded, np.float64),
             "recent": (padded if history or late else 0, (1 + history + late) * seen, np.float32),
             "seen": (padded if late else 0, (1 + history) * seen, np.float32),
         }
@@ -230,7 +236,7 @@ class Worlds:
     @property
     def states(self) -> NDArray[np.float64]:
         """States and rotor forces (count, 24 + n), a copy, e₃ up."""
-        return self.part("state", 24 + self.env.rotors)
+        return self.part("state", SIZE + self.env.rotors)
 
     @property
     def goals(self) -> NDArray[np.float64]:

@@ -1,7 +1,8 @@
 """What worlds with sensors observe: the estimate of the flight computer's filter, once an action.
 
 The filter is that of flights whose control rate is that of the actions, and whose commands the actions are. The random
-numbers of a world's sensors are those of the flight with its seed plus 2⁶²; its episodes are 2⁴¹ ticks apart.
+numbers of a world's sensors are those that a flight with its seed plus 2⁶² would draw, and its episodes are 2⁴¹ ticks
+apart. Seeds of flights end at 2⁶², so only the world with seed 0 shares them with one.
 """
 
 from __future__ import annotations

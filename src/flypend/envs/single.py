@@ -8,9 +8,11 @@ import gymnasium
 import numpy as np
 from gymnasium.error import ResetNeeded
 
+from flypend.compile.llvm.worlds import BOUND, BY_TASK, LOST
 from flypend.envs.state import Stateful
 from flypend.errors import InputError
 from flypend.flight.outcome import Outcome
+from flypend.flight.touch import reason_of
 from flypend.flight.trajectory import Trajectory
 from flypend.model import State
 from flypend.model.state import SIZE
@@ -77,8 +79,9 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         over = worlds.terminated | worlds.truncated
         last = worlds.last_observation(over)
         worlds.remember(over)
-        if not over[0]:
-            self._flown.append(worlds.states[0])
+        state = (worlds.ends if over[0] else worlds.states)[0]
+        if np.isfinite(state).all():
+            self._flown.append(state.copy())
         seen = (last if over[0] else worlds.shown)[0].copy()
         return seen, float(worlds.rewards[0]), terminated, truncated, {}
 
@@ -86,7 +89,7 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         """Return a picture (480, 480, 3) of uint8 of the present, or None without a `render_mode`.
 
         The camera follows the vehicle along a grid of 0.5 m; a line leads to the goal. For a world that has ended, the
-        picture shows its last state before the end.
+        picture shows its last state.
         """
         self._check_begun()
         if self.render_mode is None:
@@ -102,7 +105,11 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         self._flown = list(states.reshape(-1, self.worlds.states.shape[1]))
 
     def trajectory(self) -> Trajectory:
-        """Return what has been flown since the last `reset` as a run, a state per action: for pages and figures."""
+        """Return what has been flown since the last `reset` as a run, a state per action: for pages and figures.
+
+        A last state that is not finite is left out. The outcome is "collided" or "diverged" as that of a flight, and
+        "completed", with the reason, if the task has ended the episode.
+        """
         self._check_begun()
         env, states = self.worlds.env, np.array(self._flown)
         forces = states[:, SIZE:]
@@ -111,6 +118,17 @@ class World(Stateful, gymnasium.Env[Any, Any]):
         return Trajectory(
             t=np.arange(len(states)) / env.rate, **{name: getattr(named, name) for name in vars(named)},
             thrust=wrench[:, 0], moment=wrench[:, 1:], rotor_forces=forces, drift=np.zeros((0, 3)),
-            outcome=Outcome("completed", (len(states) - 1) / env.rate), e3="up", vehicle=env.vehicle,
+            outcome=self._outcome((len(states) - 1) / env.rate), e3="up", vehicle=env.vehicle,
             law=f"actions in {env.task.name}", gains={},
         )  # fmt: skip
+
+    def _outcome(self, time: float) -> Outcome:
+        """How the episode has ended at this `time`, s."""
+        env, cause = self.worlds.env, self.worlds.causes[0]
+        if not self.worlds.terminated[0]:
+            return Outcome("completed", time)
+        if cause == BY_TASK:
+            return Outcome("completed", time, f"the task {env.task.name} ended the episode")
+        if cause == LOST:
+            return Outcome("diverged", time, f"state or action was not finite, or the state left |s| < {BOUND:g}")
+        return Outcome("collided", time, reason_of(env.vehicle, int(cause)))

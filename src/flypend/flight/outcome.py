@@ -29,7 +29,7 @@ class Outcome:
     time : float
         End time, s.
     reason : str
-        Cause and remedy; empty for a completed run.
+        Cause and remedy; empty for a completed run, except for an episode that its task has ended.
     """
 
     status: Status

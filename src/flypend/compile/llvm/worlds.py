@@ -8,12 +8,14 @@ from flypend.compile.problem import WorldsProblem
 from flypend.model.state import SIZE
 
 ARGUMENTS = (
-    "memories", "seeds", "actions", "observations", "rewards", "terminated", "truncated", "last", "first",
-    "count", "limit", "fresh",
+    "memories", "seeds", "actions", "observations", "rewards", "terminated", "truncated", "last", "ends",
+    "causes", "first", "count", "limit", "fresh",
 )  # fmt: skip
 INTEGERS = ("first", "count", "limit", "fresh")
 # A state is lost once its length is beyond it; no observation is larger.
 BOUND = 1000.0
+# Causes of the end of a world that has touched nothing; those that have are the part, as in `flight.touch.touchable`.
+BY_TASK, LOST = -1.0, -2.0
 
 
 def kernel_module(problem: WorldsProblem, width: int) -> LoopModule:
@@ -25,6 +27,8 @@ def kernel_module(problem: WorldsProblem, width: int) -> LoopModule:
         (groups, 2 + memory, width) of float64: actions since the beginning, number of the episode, memory.
     seeds
         (groups, width) of int64.
+    ends, causes
+        (worlds, 24 + n) and (worlds,) of float64: last states and rotor forces, and causes, of those that have ended.
     terminated, truncated
         (worlds,) of bytes, 0 or 1.
     """
@@ -54,5 +58,6 @@ def _constants(problem: WorldsProblem) -> Constants:
         "NUMBERS": problem.step.inputs[5], "TOUCHES": int(problem.touch is not None), "SENSES": int(own is not None),
         "START_TICK": own.tick if own else 0, "START_DRAWS": whole_blocks(own.first.inputs[1]) if own else 0,
         "DRAWS": whole_blocks(own.sense.inputs[3]) if own else 0, "BOUND": BOUND,
+        "BY_TASK": BY_TASK, "LOST": LOST,
     }  # fmt: skip
     return numbers | {f"AT_{part.upper()}": places[part] for part in parts}

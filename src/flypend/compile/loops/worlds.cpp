@@ -16,17 +16,19 @@ static INLINE U whole(V number) { return (U)__builtin_convertvector(number, L); 
 // seeds          (groups)
 // actions, observations, rewards, terminated, truncated   one row per world
 // last           (worlds, OBSERVED): the last observation of those that have ended; other rows are left alone
+// ends           (worlds, STATE + ROTORS): their last state and rotor forces
+// causes         (worlds): the part that has touched, or BY_TASK or LOST
 extern "C" void kernel(
     V *memories, const L *seeds, const float *actions, float *observations, float *rewards, bool *terminated,
-    bool *truncated, float *last, int64_t first, int64_t count, int64_t limit, int64_t fresh) {
+    bool *truncated, float *last, double *ends, double *causes, int64_t first, int64_t count, int64_t limit, int64_t fresh) {
     V action[ACTIONS], observed[OBSERVED], given[COMMAND], held[COMMAND], forces[ROTORS];
     V before[STATE + ROTORS + NUMBERS];
     V draws[UNIFORMS], begun[MEMORY], start_draws[some(START_DRAWS)], noise[some(DRAWS)];
-    V *clock, *episode, *memory, *state, *rotors;
+    V *clock, *episode, *memory, *state, *rotors, touched, cause;
     U seed;
     int64_t world;  // the first of the group
 
-    auto store = [&](float *rows, V *vectors, int64_t length, M which) WITHIN {
+    auto store = [&](auto *rows, V *vectors, int64_t length, M which) WITHIN {
         for (int64_t lane : Set(which)) into_row(vectors, lane, rows + (world + lane) * length, length);
     };
     auto flag = [&](bool *flags, M which) WITHIN { EACH_LANE flags[world + lane] = which[lane] != 0; };
@@ -71,7 +73,8 @@ extern "C" void kernel(
         }
     };
 
-    // Take the steps of the action; returns which of the worlds that are not `lost` are so then.
+    // Take the steps of the action; returns which of the worlds that are not `lost` are so then, and which part of them
+    // has `touched`.
     auto move = [&](M lost) WITHIN {
         V *queue = memory + AT_QUEUE, share;
         const V *wanted = RATES ? forces : held;
@@ -83,7 +86,11 @@ extern "C" void kernel(
             if (TOUCHES) copy(state, before, STATE + ROTORS);
             step(state, rotors, wanted, memory + AT_WIND, memory + AT_TIMING, memory + AT_NUMBERS, state, rotors);
             Contact contact{};  // distances above 0 are not looked for
-            if (TOUCHES) lost |= contact.look(~lost, before, state, all(T(LENGTH)), share);
+            if (TOUCHES) {
+                const M touch = contact.look(~lost, before, state, all(T(LENGTH)), share);
+                touched = touch ? contact.part : touched;
+                lost |= touch;
+            }
         }
         for (int64_t age = QUEUED - 1; age > 0; age--)
             copy(queue + (age - 1) * COMMAND, queue + age * COMMAND, COMMAND);
@@ -96,6 +103,7 @@ extern "C" void kernel(
         for (int64_t lane = 0; lane < W; lane++) from_row(actions + (world + lane) * ACTIONS, action, lane, ACTIONS);
         M lost = undefined(action, ACTIONS);
         for (int64_t i = 0; i < ACTIONS; i++) action[i] = most(least(action[i], all(1)), all(-1));
+        touched = all(T(LOST));
         lost = move(lost);
         *clock += 1;
         const V now = time();
@@ -103,6 +111,7 @@ extern "C" void kernel(
         judge(&now, memory, action, &reward, &ended);
         lost |= far(state, STATE + ROTORS, T(BOUND));
         const M done = (ended > 0) | lost, late = (*clock >= T(limit)) & ~done;
+        cause = lost ? touched : all(T(BY_TASK));
         reward = lost & ~(size(reward) < INFINITE) ? V{} : reward;
         copy(action, memory + AT_ACTION, ACTIONS);
         if (SENSES) {
@@ -124,7 +133,11 @@ extern "C" void kernel(
         if (fresh) *episode = V{};
         const M over = fresh ? every() : advance();
         if (any(over)) {
-            if (!fresh) store(last, observed, OBSERVED, over);
+            if (!fresh) {
+                store(last, observed, OBSERVED, over);
+                store(ends, state, STATE + ROTORS, over);
+                store(causes, &cause, 1, over);
+            }
             start(over);
             look();
         }

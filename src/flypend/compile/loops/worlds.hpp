@@ -27,6 +27,8 @@ extern const int64_t SENSES;                   // whether there are any
 extern const int64_t START_TICK, START_DRAWS;  // the tick that stands for the start, and its random numbers
 extern const int64_t DRAWS;                    // random numbers of any other
 
+extern const double BY_TASK, LOST;  // causes of an end other than a touch
+
 extern const double BOUND;  // a state is lost once its length is beyond it; no observation is larger
 
 // Programs, for all lanes. Inputs are read before an output is written, so an output may be an input.

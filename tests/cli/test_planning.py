@@ -44,7 +44,7 @@ def test_a_cube_is_about_the_target_or_the_end_of_a_path(tmp_path):
     box = asked.constraints(fp.State(x=(1.0, 0.0, -2.0), y=(0, 0, 1)), None, {}).box
     np.testing.assert_allclose(box, [(0.7, -0.3, -2.3), (1.3, 0.3, -1.7)])
     path = replace(asked, path=f"{tmp_path / 'way.py'}:line")
-    (tmp_path / "way.py").write_text("def line(t):\n    return [t, 0 * t, 2.0]\n")
+    (tmp_path / "way.py").write_text("import casadi as ca\ndef line(t):\n    return ca.vertcat(t, 0, 2.0)\n")
     np.testing.assert_allclose(path.constraints(None, 3.0, {}).box, [(2.7, -0.3, 1.7), (3.3, 0.3, 2.3)])
 
 

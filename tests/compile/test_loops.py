@@ -180,7 +180,7 @@ CARTS = {
     "STATE": 4, "ROTORS": 2, "MEMORY": 3, "SLIDE": 1, "MEASURED": 4, "COMMAND": 2, "GAINS": 1, "NOISE": 1, "WIND": 1,
     "PARAMS": 1, "GUST": 1, "VALUES": 4, "PERIOD": 0.01, "STRETCHES": 2, "TIMING": 1, "AGES": (1, 0), "STEPS": (1, 2),
     "DEPTH": 2, "PIECES": 0, "RANDOM": 1, "DRAWS": 24, "FIRST_DRAW": 0,
-    "END_DRAW": 19, "GUSTS": 18, "RATES": 0, "MEASURES": 1, "TOUCHES": 1,
+    "END_DRAW": 19, "GUSTS": 18, "GUST_DRAWS": 1, "GUST_TICK": 8000, "RATES": 0, "MEASURES": 1, "TOUCHES": 1,
     "SENSES": 0, "SENSED": 0, "START_TICK": 9, "START_DRAWS": 0, "MOST_STATE": 1e3, "KINDS": (0, 1, 2, 3),
     "MUJOCO": 0, "QPOS": 2, "QVEL": 2, "FILTERED": 0, "DRIVEN": 0, "BLOWN": 0, "FILTER_STRIDE": 10, "MOST_FORCE": 1e3,
     "FUSES": 1,
@@ -195,7 +195,8 @@ VARIANTS = {
 
 def driven(start, gain, seed, ticks=200):
     """States and forces of two carts at each tick, step by step."""
-    start, gust, rows = np.array(start, dtype=float), 0.0, [np.array(start, dtype=float)]
+    start, gust = np.array(start, dtype=float), normals(seed, 1, first=CARTS["GUST_TICK"])[0, 18]
+    rows = [start.copy()]
     state, held = start[:4].copy(), start[4:]
     for tick in range(ticks):
         draws = normals(seed, 1, first=tick)[0]

@@ -72,7 +72,8 @@ def _constants(problem: SampledProblem) -> Constants:
     stretches = pieces.stretches if pieces else len(ages)
     # The random numbers of a tick that are used: the first for the measurement, the others for the gusts.
     measured = problem.measure.inputs[1] if problem.measure else sensing.sense.inputs[3] if sensing else 0
-    drawn = max(measured, GUSTS + gusts.inputs[1] if gusts else 0)
+    blowing = gusts.inputs[1] if gusts else 0
+    drawn = max(measured, GUSTS + blowing if gusts else 0)
     numbers: Constants = {
         "STATE": SIZE, "ROTORS": begin.inputs[0], "MEMORY": memory, "SLIDE": board.slide() or memory,
         "MEASURED": given - 1, "COMMAND": len(begin.outputs[1]), "GAINS": gains, "NOISE": noise, "WIND": wind,
@@ -80,7 +81,7 @@ def _constants(problem: SampledProblem) -> Constants:
         "STRETCHES": stretches, "TIMING": timings // stretches, "DEPTH": pieces.depth if pieces else 1 + max(ages),
         "PIECES": int(pieces is not None), "AGES": ages, "STEPS": [stretch.steps for stretch in problem.flown],
         "RANDOM": int(problem.random), "FIRST_DRAW": 0 if measured else GUSTS, "END_DRAW": drawn,
-        "DRAWS": max(PER_TICK, whole_blocks(drawn)), "GUSTS": GUSTS, "GUST_TICK": GUST_TICK,
+        "DRAWS": max(PER_TICK, whole_blocks(drawn)), "GUSTS": GUSTS, "GUST_DRAWS": blowing, "GUST_TICK": GUST_TICK,
         "RATES": int(problem.loop is not None), "MEASURES": int(problem.measure is not None),
         "TOUCHES": int(problem.touch is not None), "MOST_STATE": float(MAX_STATE),
         "KINDS": [KINDS.index(kind) for kind in judged],

@@ -119,7 +119,7 @@ extern "C" void kernel(
         for (int64_t i = 0; i < GUST; i++) gust[i] = V{};
         if (GUST && RANDOM) {
             normals(seed, U{} + uint64_t(GUST_TICK), FIRST_DRAW, END_DRAW, draws);
-            copy(draws + GUSTS, gust, 6);
+            copy(draws + GUSTS, gust, GUST_DRAWS);
         }
         for (int64_t i = 0; i < 6; i++) wind[i] = V{};
         if (W == 1 && MUJOCO) engine.begin(first, state);

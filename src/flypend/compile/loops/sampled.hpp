@@ -24,8 +24,8 @@ extern const int64_t DEPTH;              // commands to keep: those in transit a
 extern const int64_t PIECES;             // whether the flight is one in pieces
 
 // Random numbers of a tick: room for `DRAWS`, drawn from `FIRST_DRAW` to before `END_DRAW`, since nothing uses the others;
-// those from `GUSTS` on are for the gusts, of `GUST_TICK` for those before the first tick.
-extern const int64_t RANDOM, DRAWS, FIRST_DRAW, END_DRAW, GUSTS, GUST_TICK;
+// `GUST_DRAWS` from `GUSTS` on are for the gusts, of `GUST_TICK` for those before the first tick.
+extern const int64_t RANDOM, DRAWS, FIRST_DRAW, END_DRAW, GUSTS, GUST_DRAWS, GUST_TICK;
 
 // Which programs there are.
 extern const int64_t RATES, MEASURES, TOUCHES;

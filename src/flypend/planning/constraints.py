@@ -212,7 +212,7 @@ def own_function(own: Own, rotors: int, name: str) -> ca.Function:
         raise InputError(name, what, f"one that fails: {type(error).__name__}: {error}"[:160]) from error
     if not values.numel():
         raise InputError(name, what, "one that gives none")
-    if any(value.op() in TRUTHS for value in ca.vertsplit(ca.vec(ca.densify(values)))):
+    if any(value.op() in TRUTHS for value in ca.vertsplit(ca.vec(ca.densify(ca.SX(values))))):
         raise InputError(name, "values such as a difference, which change along the way", "a comparison: 0 or 1")
     return function
 

@@ -184,7 +184,8 @@ def judge(
         reductions[:, 0], reductions[:, 1:4], reductions[:, 4], reductions[:, 5], reductions[:, 6]
     )  # fmt: skip
     extents = reductions[:, 7:] if reductions.shape[1] > 7 else np.full((len(end), 6), np.nan)
-    room = {"lowest": -extents[:, 5]} | {f"box_{'xyz'[i]}": extents[:, i] + extents[:, 3 + i] for i in range(3)}
+    # Subtracted, since a minus would change the bits of NaN, which Zarr restores in one form.
+    room = {"lowest": 0.0 - extents[:, 5]} | {f"box_{'xyz'[i]}": extents[:, i] + extents[:, 3 + i] for i in range(3)}
     status = np.asarray(status)
     late = (last >= 0) & (last >= (end - criterion.hold - SAME)[:, None])
     success = (status == "completed") & ~np.any(late, axis=1)

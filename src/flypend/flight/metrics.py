@@ -184,8 +184,7 @@ def judge(
         reductions[:, 0], reductions[:, 1:4], reductions[:, 4], reductions[:, 5], reductions[:, 6]
     )  # fmt: skip
     extents = reductions[:, 7:] if reductions.shape[1] > 7 else np.full((len(end), 6), np.nan)
-    # Subtracted, since a minus would change the bits of NaN, which Zarr restores in one form.
-    room = {"lowest": 0.0 - extents[:, 5]} | {f"box_{'xyz'[i]}": extents[:, i] + extents[:, 3 + i] for i in range(3)}
+    room = {"lowest": -extents[:, 5]} | {f"box_{'xyz'[i]}": extents[:, i] + extents[:, 3 + i] for i in range(3)}
     status = np.asarray(status)
     late = (last >= 0) & (last >= (end - criterion.hold - SAME)[:, None])
     success = (status == "completed") & ~np.any(late, axis=1)
@@ -199,7 +198,8 @@ def judge(
         "peak_force": peak,
         "end": end,
         "clearance": np.full(len(end), np.inf) if clearance is None else clearance,
-        **room,
+        # NaN in one form, since Zarr restores no other where nothing else is in a chunk.
+        **{name: np.where(np.isnan(values), np.nan, values) for name, values in room.items()},
         "cause": np.where(success, "", cause),
     }
 

@@ -344,6 +344,8 @@ def test_hover_in_a_wall_is_refused():
     with pytest.raises(fp.InputError, match=r"^window: expected a wall that hover at the reference is clear of"):
         fp.nmpc(HEHN, window=window)
     fp.nmpc(HEHN, window=replace(window, centre=(1.0, 2, 0.25)))
+    with pytest.raises(fp.InputError, match=r"^vehicle.body: "):
+        fp.nmpc(HEHN.replace(body=None), window=window)
 
 
 def test_beside_a_moving_reference_only_lean_and_clearance_mean_something():

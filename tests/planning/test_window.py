@@ -103,10 +103,16 @@ def test_two_windows_and_a_hub():
 
 def test_what_comes_nearer_than_the_clearance_says_so():
     """A cost grows for it, which the least time pays."""
-    plan = fp.plan(HEHN.replace(mount="hub"), fp.State(y=(0, 0, -1)), "time", clearance=0.05)
+    hub, hanging = HEHN.replace(mount="hub"), fp.State(y=(0, 0, -1))
+    plan = fp.plan(hub, hanging, "time", clearance=0.05)
     assert plan.status == "feasible"
-    assert np.min(plan.trajectory.clearance) < 0.04
-    assert "the clearance is" in plan.reason
+    distance = plan.trajectory.clearance
+    wish, nearest = min(0.05, distance[0]), np.min(distance)  # the start is nearer than the clearance
+    assert nearest < 0.01 < 0.03 < wish
+    assert f"clearance is {wish - nearest:.3g} m" in plan.reason
+    kept = fp.plan(hub, hanging, clearance=0.01)
+    assert np.min(kept.trajectory.clearance) > 0.0099
+    assert "clearance" not in kept.reason
 
 
 def test_room_agrees_with_points_all_over_the_machine(through_the_door):

@@ -56,7 +56,7 @@ def regulator(plan: Plan) -> Feedback:
     """Return the feedback along `plan`. Raises InputError if it failed, or does not end in inverted hover."""
     if not plan:
         raise InputError("plan", "one that can be flown", plan.reason)
-    _ = plan.reference  # there is one only in inverted hover
+    plan.check_end()
     vehicle, units = plan.vehicle, Units.of(plan.vehicle)
     count = len(plan.commands)
     per_stage = (len(plan.t) - 1) // count

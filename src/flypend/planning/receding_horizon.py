@@ -40,7 +40,6 @@ from flypend.planning.real_time import OF_STAGES, PlanInFlight, falls, hovers, i
 from flypend.planning.result import Plan
 from flypend.planning.search import plan_of, stages_of
 from flypend.planning.tracking import Boards, fallback_law, rotors_only
-from flypend.planning.window import body_of
 from flypend.plants.loop import Loop
 
 Level = tuple[Array, Array]  # rod and thrust axis in hover
@@ -179,7 +178,6 @@ class Receding:
         hovering = State(x=there, y=E3)
         request(vehicle, hovering, "excursion", there, kept=self.kept(there, there))
         for window in self.constraints.windows:
-            body_of(vehicle)
             if not window.room(State.trusted(hovering.packed()[None]), vehicle)[0] > 0:
                 raise InputError("window", "a wall that hover at the reference is clear of", window.centre.tolist())
 

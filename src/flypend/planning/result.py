@@ -137,14 +137,18 @@ class Plan:
 
         Raises InputError if the plan ends otherwise than in inverted hover, after which there is nothing to follow.
         """
+        self.check_end()
+        path = self.path
+        return hover(self.target) if path is None else lambda t: path(ca.fmin(t, self.duration))
+
+    def check_end(self) -> None:
+        """Raise InputError unless the plan ends in inverted hover, within the tolerances of plans."""
         n, units = len(self.vehicle.rotor_spins), Units.of(self.vehicle)
         end = np.append(self.packed[-1], self.rotor_forces[-1])
         end[:3] -= self.target
         errors_of = _hover_errors(n)(end / units.states(n), spin_tolerance(self.vehicle, units))
         if not np.max(np.abs(errors_of)) <= 1 + ROUNDING:
             raise InputError("plan", "one that ends in inverted hover", "another end, which is not tracked")
-        path = self.path
-        return hover(self.target) if path is None else lambda t: path(ca.fmin(t, self.duration))
 
     @property
     def x_ref(self) -> Array:

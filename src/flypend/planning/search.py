@@ -287,6 +287,8 @@ def _too_near(plan: Plan, clearance: float) -> str:
     A cost grows for the clearance: what comes nearer can be flown as long as nothing touches. A start that is nearer is
     to keep its own distance.
     """
-    rooms = [plan.trajectory.clearance, *(window.room(plan.states, plan.vehicle) for window in plan.windows)]
-    lacking = max(min(clearance, float(room[0])) - float(np.min(room)) for room in rooms)
+    rooms = [window.room(plan.states, plan.vehicle) for window in plan.windows]
+    if plan.vehicle.mount != "gimbal":
+        rooms.append(plan.trajectory.clearance)
+    lacking = max((min(clearance, float(room[0])) - float(np.min(room)) for room in rooms), default=0.0)
     return f"the clearance is {lacking:.3g} m short" if lacking > NEARER * plan.vehicle.l else ""

@@ -25,6 +25,7 @@ from flypend.building import built
 from flypend.errors import InputError
 from flypend.geometry import E3, cross, dot, norm
 from flypend.model import State, Vehicle
+from flypend.model.body import Body
 from flypend.model.state import SIZE
 from flypend.planning.dynamics import Array, Units
 
@@ -116,7 +117,12 @@ class Window:
         states : State
             A batch of n states, e₃ up.
         vehicle : Vehicle
-            The vehicle, with a body.
+            The vehicle.
+
+        Raises
+        ------
+        InputError
+            If the vehicle has no body.
         """
         first, last, radii = _edges(states, vehicle)
         a, b = self.inside(first), self.inside(last)
@@ -136,20 +142,25 @@ def body_of(vehicle: Vehicle) -> tuple[float, float, float]:
 
     That is the larger one of rod and arms; all in m. Raises InputError without a body.
     """
-    body = vehicle.body
-    if body is None:
-        raise InputError("vehicle.body", "the radii of the machine's parts, to fly through a window", "nothing")
-    centres = vehicle.rotors_from_pivot
+    body, centres = _parts(vehicle), vehicle.rotors_from_pivot
     radius = float(np.max(np.linalg.norm(centres[:, :2], axis=1))) + body.disc_radius
     return radius, float(np.mean(centres[:, 2])), max(body.rod_radius, body.arm_radius)
+
+
+def _parts(vehicle: Vehicle) -> Body:
+    """Return the body of `vehicle`. Raises InputError if it has none."""
+    body: Body | None = vehicle.body
+    if body is None:
+        raise InputError("vehicle.body", "the radii of the machine's parts, to fly through a window", "nothing")
+    return body
 
 
 def _edges(states: State, vehicle: Vehicle) -> tuple[Array, Array, Array]:
     """Return the ends (n, k, 3), world, of the edges of a machine, and how thick they are (k,), m.
 
-    They are the rod, the arms, and polygons about rotor discs and hub.
+    They are the rod, the arms, and polygons about rotor discs and hub. Raises InputError without a body.
     """
-    body, centres = vehicle.body, vehicle.rotors_from_pivot
+    body, centres = _parts(vehicle), vehicle.rotors_from_pivot
     turn = 2 * np.pi * np.arange(RIM) / RIM
     circle = np.stack([np.cos(turn), np.sin(turn), np.zeros(RIM)], axis=-1) / np.cos(np.pi / RIM)
     discs = [(centre, body.disc_radius) for centre in centres] + [(np.zeros(3), body.hub_radius)]

@@ -1,6 +1,8 @@
 """The laws of Theorem 1: what they command, what beta cancels, and what their Lyapunov function does."""
 
+import copy
 import io
+import pickle
 import tokenize
 from pathlib import Path
 
@@ -455,3 +457,15 @@ def test_mistakes_of_beginners_are_one_line(control, told):
     law = fp.Law(name="own", e3="up", control=control)
     with pytest.raises(fp.InputError, match=rf"test_laws\.py:\d+: {told}.* \(in the law own\)$"):
         fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0, 1)), 1.0, plant="ideal")
+
+
+@pytest.mark.parametrize(
+    "kind", [fp.laws.inverted, fp.laws.almost_global, fp.laws.learned, fp.laws.nmpc, "of a function"]
+)
+def test_a_law_is_copied_and_sent_to_other_processes_as_a_value(kind):
+    law = fp.laws.from_function(lambda t, s: fp.Wrench(5.4, -0.01 * s.omega)) if kind == "of a function" else kind()
+    assert copy.copy(law) is copy.deepcopy({"law": law})["law"] is law
+    sent = pickle.loads(pickle.dumps(law))
+    start = fp.State(omega=(0.1, 0.2, 0), y=(0.1, 0, 0.995))
+    one, two = (fp.simulate(fp.vehicle("hehn2011"), each, start, 0.1, plant="rotors").packed for each in (law, sent))
+    np.testing.assert_array_equal(one, two)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import inspect
 import math
+import pickle
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from numbers import Real
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,10 +123,28 @@ class Gain:
         return f"{self.doc}{', ' + self.unit if self.unit and self.doc else self.unit}"
 
 
+def pickle_by_code(law: Any) -> tuple[Any, ...]:
+    """Reduce a `law` for `pickle`, and so for other processes, whose functions nobody could import by name."""
+    import cloudpickle  # imported here: few laws are pickled
+
+    values = {entry.name: getattr(law, entry.name) for entry in fields(law) if entry.init}
+    return _unpickle, (type(law), cloudpickle.dumps(values))
+
+
+def _unpickle(kind: Any, values: bytes) -> Any:
+    return kind(**pickle.loads(values))  # noqa: S301  # part of what a pickle holds
+
+
 class Tunable:
     """What has a `table` of gains: a law, bound to a vehicle or not, or a controller."""
 
     table: Mapping[str, Gain]
+
+    def __copy__(self) -> Self:
+        return self  # nothing of it changes
+
+    def __deepcopy__(self, _: object) -> Self:
+        return self
 
     def propose(self, vehicle: Vehicle) -> dict[str, Any]:
         """Default values of all gains for `vehicle`, by name, whatever is given."""

@@ -10,7 +10,7 @@ from typing import Any
 from flypend import errors
 from flypend.building import builds
 from flypend.laws.bound import BoundLaw, Computer, Feedback, Guard
-from flypend.laws.gain import Gain, check_gains, table
+from flypend.laws.gain import Gain, check_gains, pickle_by_code, table
 from flypend.laws.law_error import is_own
 from flypend.laws.references import check_reference
 from flypend.model import Vehicle
@@ -73,6 +73,7 @@ class Law(Feedback):
     prepare: Callable[[Vehicle, Values], Values] | None = None
     calm: Callable[[Vehicle, float], Values] | None = None
     _bound: dict[Vehicle, BoundLaw] = field(default_factory=dict, init=False, repr=False)
+    __reduce__ = pickle_by_code
 
     def __post_init__(self) -> None:
         errors.one_of("law.e3", self.e3, ("up", "down"))

@@ -26,7 +26,7 @@ from flypend.building import builds
 from flypend.errors import InputError
 from flypend.geometry import Numbers
 from flypend.laws.bound import Computer
-from flypend.laws.gain import Gain, Tunable, check_gains, is_number, table
+from flypend.laws.gain import Gain, Tunable, check_gains, is_number, pickle_by_code, table
 from flypend.laws.law import Law
 from flypend.laws.law_error import LawError, Located, check_finite, file_of, innermost, is_own, location, wrench_of
 from flypend.laws.references import Reference, check_reference
@@ -95,6 +95,7 @@ class Controller(Tunable):
     steering: Callable[[Vehicle, Mapping[str, Any]], Steering] | None = None
     table: Mapping[str, Gain] = field(default_factory=dict)
     because: str = ""
+    __reduce__ = pickle_by_code
 
     def __post_init__(self) -> None:
         errors.one_of("controller.e3", self.e3, ("up", "down"))

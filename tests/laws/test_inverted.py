@@ -518,6 +518,16 @@ def test_bandwidths_that_are_not_separated_are_refused():
         fp.simulate(VEHICLE, fp.laws.inverted(rod_bandwidth=100), fp.State(y=E3), 1.0, plant="ideal")
 
 
+def test_calming_moves_the_gains_that_were_not_given():
+    calm = BOUND.calm_by(0.5)
+    assert (BOUND.calm, calm.calm) == (0.0, 0.5)
+    assert BOUND.calm_by(0.0) is calm.calm_by(0.0) is BOUND
+    moved = set(calm.prepared["calming"])
+    assert "coast_time" in moved
+    given = fp.laws.inverted(coast_time=BOUND.gains["coast_time"]).bind(VEHICLE)
+    assert set(given.calm_by(0.5).prepared["calming"]) == moved - {"coast_time"}
+
+
 def test_the_law_is_bound_once_per_vehicle():
     law = fp.laws.inverted(rod_damping=0.5)
     bound = law.bind(VEHICLE)

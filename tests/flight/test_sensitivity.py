@@ -123,11 +123,26 @@ def test_the_inverted_law_has_derivatives_by_its_gains():
     np.testing.assert_allclose(found.by_gains[:, 0], (ends[0] - ends[1]) / (2 * h), atol=1e-5)
 
 
+def test_a_jump_of_the_moment_shows_in_the_discrepancy(found):
+    assert found.discrepancy < 1e-6
+    vehicle, law = fp.vehicle("hehn2011"), fp.laws.inverted()
+    start = fp.random_starts(60, seed=3)[16]  # the tilt limit sets in after 1.19 s
+    (before, after), h = (fp.sensitivity(vehicle, law, start, time) for time in (1.0, 1.5)), 1e-4
+    ends = [
+        fp.simulate(vehicle, law, moved(start, h * sign * np.eye(16)[5]), 1.5, rtol=1e-11, plant="ideal").packed[-1]
+        for sign in (1, -1)
+    ]
+    assert np.max(np.abs(after.by_start[:, 5] - (ends[0] - ends[1]) / (2 * h))) > 0.1
+    assert before.discrepancy < 0.01
+    assert after.discrepancy > 0.1
+
+
 def test_a_run_that_does_not_complete_has_no_derivatives():
     case = experiment("4")
     found = fp.sensitivity(case.vehicle, case.law("printed"), case.start, 2.0)
     assert found.outcome.status in ("singular", "diverged")
     assert np.all(np.isnan(found.by_start))
+    assert np.isnan(found.discrepancy)
 
 
 @pytest.mark.parametrize(

@@ -511,3 +511,22 @@ def test_where_no_set_can_be_certified():
     law = fp.laws.almost_global().bind(HEHN)
     with pytest.raises(fp.InputError, match=r"^law: "):
         law.along(law.path).certified_set()
+
+
+def test_forces_beyond_the_limits_are_not_in_the_set_even_at_a_small_wrench():
+    angles = np.arange(6) * np.pi / 3
+    vehicle = fp.vehicle("hehn2011").replace(
+        rotor_positions=0.17 * np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1),
+        rotor_spins=[1, -1] * 3, rotor_lag=0.02,
+    )  # fmt: skip
+    bound = fp.laws.almost_global_lag().bind(vehicle)
+    certified, hover = bound.certified_set(), np.full(6, vehicle.weight / 6)
+    idle = np.linalg.svd(vehicle.mixing())[2][-1]  # forces without a wrench
+    assert certified.contains(fp.State(y=E3), hover)
+    assert not certified.contains(fp.State(y=E3), hover + 30 * idle)
+
+
+def test_a_law_through_a_lag_needs_the_yaw_damping_of_its_theorem():
+    assert fp.laws.almost_global(yaw_damping=0.0).gains["yaw_damping"].bounds.low == 0
+    with pytest.raises(fp.InputError, match=r"^yaw_damping"):
+        fp.laws.almost_global_lag(yaw_damping=0.0)

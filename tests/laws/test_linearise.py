@@ -114,6 +114,15 @@ def test_the_matrix_of_the_corrected_law_is_that_of_its_flow():
     np.testing.assert_allclose(got, expm(h * found.A), rtol=0, atol=1e-6)
 
 
+@pytest.mark.parametrize("law", [fp.laws.lqr(), fp.laws.inverted(), fp.laws.almost_global()], ids=lambda law: law.name)
+def test_rotors_that_give_more_than_commanded_are_commanded_less(law):
+    """The law knows of `thrust_scale`, so that the closed loop is the same, but for the default gains of `inverted`."""
+    vehicle = fp.vehicle("hehn2011").replace(thrust_scale=0.7)
+    linear = linearise(law, vehicle)
+    ends = fp.sensitivity(vehicle, law, linear.at, 0.3).on_manifold[0]
+    np.testing.assert_allclose(ends, expm(0.3 * linear.A), atol=1e-6)
+
+
 def test_the_open_loop_is_what_numpy_differentiates():
     rng = np.random.default_rng(1)
     for e3, at in (("up", fp.State(y=(0, 0, 1))), ("up", fp.State(y=(0, 0, -1))), ("down", fp.State(y=(0, 0, 1)))):

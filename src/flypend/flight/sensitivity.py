@@ -34,6 +34,9 @@ from flypend.plants.loop import Loop
 if TYPE_CHECKING:
     import xarray
 
+# Of the difference quotient: its square is far below, and the integrator's error over it still below, a thousandth.
+STEP = 1e-5
+
 
 @errors.named_arguments
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,6 +54,10 @@ class Sensitivity:
     outcome : Outcome
         completed, diverged or singular, with its time; unless completed, all derivatives are NaN. A derivative that
         grows beyond a million counts as diverged.
+    discrepancy : float
+        How far a difference quotient of two flights, in a fixed direction of start and gains, is from what the
+        derivatives say, over the largest entry of the latter. Where the moment jumps during the flight, as that of
+        `laws.inverted` does where its tilt limit sets in, the derivatives miss what the jump adds, and it is not small.
     e3 : "up" or "down"
         Direction of the frame's third axis.
     vehicle : Vehicle
@@ -65,6 +72,7 @@ class Sensitivity:
     by_start: NDArray[np.float64]
     by_gains: NDArray[np.float64]
     outcome: Outcome
+    discrepancy: float
     e3: E3Direction
     vehicle: Vehicle
     law: str
@@ -89,7 +97,12 @@ class Sensitivity:
         if self.gains:
             variables["gain"] = variable("gain", names, list(self.gains))
             variables["by_gains"] = variable("by_gains", ends + names, by_gains)
-        return dataset(variables, describe(self.vehicle, self.law, self.gains, self.e3) | vars(self.outcome))
+        return dataset(
+            variables,
+            describe(self.vehicle, self.law, self.gains, self.e3)
+            | vars(self.outcome)
+            | {"discrepancy": self.discrepancy},
+        )
 
 
 @errors.named_arguments
@@ -135,17 +148,20 @@ def sensitivity(
         raise InputError("gains", "a sequence of names", repr(gains))
     bound, names = flight.loop.symbolic, tuple(gains)
     errors.only_known("gains", dict.fromkeys(names), bound.numbers)
-    flown = _fly_tangents(flight, names)
+    along = np.random.default_rng(0).normal(size=len(COORDINATES) + len(names))
+    flown = _fly_tangents(flight, names, along)
     first = int(np.argmax(flown.status != "completed"))  # of those that failed, or of all
     completed = flown.status[first] == "completed"
     if flight.loop.touches and (end := simulate(vehicle, law, start, duration, plant="ideal").outcome).reason:
         raise InputError("start", "one from which nothing touches, which has no derivative", str(end))
-    derivatives = flown.final[:, SIZE:].T if completed else np.full((SIZE, len(flown)), np.nan)
+    derivatives = flown.final[:-2, SIZE:].T if completed else np.full((SIZE, len(flown) - 2), np.nan)
+    quotient, told = (flown.final[-2, :SIZE] - flown.final[-1, :SIZE]) / (2 * STEP), derivatives @ along
     return Sensitivity(
         final=State.from_packed(project(flown.final[0, :SIZE])[0]),
         by_start=derivatives[:, : len(COORDINATES)],
         by_gains=derivatives[:, len(COORDINATES) :],
         outcome=Outcome(flown.status[first].item(), float(flown.end[first])),
+        discrepancy=float(np.max(np.abs(quotient - told)) / np.max(np.abs(told))),
         e3=bound.e3,
         vehicle=vehicle,
         law=bound.name,
@@ -153,17 +169,22 @@ def sensitivity(
     )
 
 
-def _fly_tangents(flight: Flight, gains: tuple[str, ...]) -> Flown:
+def _fly_tangents(flight: Flight, gains: tuple[str, ...], along: NDArray[np.float64]) -> Flown:
     """Fly the single start of `flight` along each coordinate and gain; final states (n, 48) hold state and derivative.
+
+    The last two start `STEP` before and behind it in the direction `along`, without derivatives.
 
     Each run propagates one direction, v of the state and q of the gains: ṡ = F(t, s, p), v̇ = F_s v + F_p q, by forward
     derivatives of the same program.
     """
     coordinates, k = len(COORDINATES), len(gains)
-    loop, runs = replace(flight.loop, parameters=gains), coordinates + k
+    loop, runs = replace(flight.loop, parameters=gains), coordinates + k + 2
     starts, parameters = np.zeros((runs, 2 * SIZE)), np.zeros((runs, 2 * k))
     starts[:, :SIZE], starts[:coordinates, SIZE:] = flight.starts.packed(), tangent_basis(flight.starts).T
-    parameters[:, :k], parameters[coordinates:, k:] = inputs_of(loop, None, runs), np.eye(k)
+    parameters[:, :k], parameters[coordinates:-2, k:] = inputs_of(loop, None, runs), np.eye(k)
+    steps = np.outer((STEP, -STEP), along)
+    starts[-2:, :SIZE] = project(starts[-2:, :SIZE] + steps[:, :coordinates] @ starts[:coordinates, SIZE:])[0]
+    parameters[-2:, :k] += steps[:, coordinates:]
     out = Flown.of_size(runs, 2 * SIZE)
     given = _kernel(loop), starts, parameters, flight.duration, flight.tolerances, Moments.of(), out
     heard([lambda stop: call(*given, stop)])

@@ -15,6 +15,7 @@ falls along every solution.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -28,7 +29,7 @@ from flypend.laws.almost_global_gains import GAINS, axis_step, damper, demand_st
 from flypend.laws.axis import axis_moment, axis_rate
 from flypend.laws.bound import COMPUTER, Control, Guard, computer_of
 from flypend.laws.certified import certified_set
-from flypend.laws.gain import document_gains, table
+from flypend.laws.gain import POSITIVE, document_gains, table
 from flypend.laws.lag import GAINS as LAG_GAINS
 from flypend.laws.lag import through_lag
 from flypend.laws.law import Law
@@ -61,7 +62,12 @@ def almost_global(reference: Reference | None = None, **gains: float) -> Law:
     )  # fmt: skip
 
 
-LAGGED_GAINS = table((*(gain for gain in GAINS.values() if gain.name not in COMPUTER), *LAG_GAINS))
+_KEPT = [
+    replace(gain, bounds=POSITIVE) if gain.name == "yaw_damping" else gain  # D says that the yaw rate decays
+    for gain in GAINS.values()
+    if gain.name not in COMPUTER
+]
+LAGGED_GAINS = table([*_KEPT, *LAG_GAINS])
 
 
 @errors.named_arguments

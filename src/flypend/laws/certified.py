@@ -89,6 +89,9 @@ class CertifiedSet:
         """
         # Computed in double precision: a margin far above its roundoff.
         inside = np.all(self.ratios(state, self._wrench(rotors)) <= 1 - 1e-9, axis=-1)
+        if rotors is not None:  # six rotors can give a small wrench by large forces
+            low, high = self.law.vehicle.rotor_limits
+            inside = inside & np.all((low <= np.asarray(rotors)) & (np.asarray(rotors) <= high), axis=-1)
         return inside if state.batch_shape else bool(inside)
 
     def ratios(self, state: State, wrench: Any = None) -> NDArray[np.float64]:

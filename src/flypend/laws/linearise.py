@@ -131,6 +131,7 @@ def linearise(law: Law | BoundLaw, vehicle: Vehicle, at: State | None = None) ->
     if not isinstance(law, Law | BoundLaw):
         raise InputError("law", "a Law, which is written in symbols", type(law).__name__)
     bound = law.bind(vehicle)
+    vehicle = bound.vehicle  # whose wrench is the commanded one
     t, packed = ca.SX.sym("t"), ca.SX.sym("s", SIZE)
     wrench = bound.evaluate(t, State.symbolic(packed), vehicle).wrench
     now = ca.substitute(_motion(packed, wrench, vehicle, bound.e3, t), [t], [ca.SX(0)])

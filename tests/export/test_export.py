@@ -179,8 +179,8 @@ def test_vehicle_and_gains_are_inputs_at_run_time(monkeypatch):
     assert _apart(rotors, wanted.rotors, 1.0) < 1e-12
 
 
-def test_six_rotors_and_a_full_inertia_matrix():
-    vehicle = hexarotor(VEHICLE)
+def test_six_rotors_a_full_inertia_matrix_and_a_rod_with_an_extent():
+    vehicle = hexarotor(VEHICLE).replace(rod_inertia=1e-2)
     for law in (fp.laws.inverted().bind(vehicle), fp.laws.corrected(yaw_damping=2.0).bind(vehicle)):
         wanted = vectors.vectors(law, vehicle, 200, 2, "double")
         wrench, rotors, status = library(law, vehicle, "double").step(wanted.state, wanted.reference)

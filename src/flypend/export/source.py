@@ -25,10 +25,12 @@ _ASCII = {
 
 
 def ascii_of(text: str) -> str:
-    """`text` in letters that every compiler and editor knows, and that do not end a comment."""
+    """`text` in letters that every compiler and editor knows, and that neither end a comment nor begin one."""
     for sign, plain in _ASCII.items():
         text = unicodedata.normalize("NFC", text).replace(sign, plain)
-    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().replace("*/", "* /")
+    return (
+        unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().replace("*/", "* /").replace("/*", "/ *")
+    )
 
 
 def struct(record: Record, unused: Sequence[str] = ()) -> str:

@@ -100,8 +100,10 @@ def export_c(
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     made = interface(law, vehicle, rate, sensors_called(sensors, "sensors"))
+    texts = core(made, precision)
     values = values_of(made, precision) | _vectors(made, precision)
-    texts = core(made, precision) | {name: fill(name, values) for name in BESIDE}
+    values["sources"] = " ".join(name for name in texts if name.endswith(".c"))
+    texts |= {name: fill(name, values) for name in BESIDE}
     if check:
         found = fly_tests(law, vehicle, rate)
         texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)

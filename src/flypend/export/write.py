@@ -253,7 +253,8 @@ def _structs(made: Interface) -> list[str]:
 
 def _vectors(made: Interface, precision: Precision) -> dict[str, str]:
     """What the template of the test vectors takes."""
-    found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
+    steady = TOLERANCE[precision] / 10
+    found = vectors.steady_vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision, steady)
     flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision, made.law)
     if not all(np.isfinite(each).all() for each in flights):
         raise InputError("rate", "one at which flights stay finite", f"{made.loop.sampled.rate:g} Hz")

@@ -190,7 +190,8 @@ def _cascade(
     f = ca.fmin(ca.fmax(dot(calm * present + brake, state.z), 0), spin.thrust * largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
     # Observed forces are those on the equivalent point bob and its mass at the pivot: the rod shares none of them out.
-    rates = disturbed_motion(state, wrench, Altered(vehicle, rod_inertia=0.0), "up", Disturbance(*forces))
+    point_bob: Any = Altered(vehicle, rod_inertia=0.0)
+    rates = disturbed_motion(state, wrench, point_bob, "up", Disturbance(*forces))
 
     def axis(turned: Vector) -> Vector:
         return lift(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)

@@ -66,6 +66,8 @@ def test_a_bob_at_the_pivot_and_no_quaternion_give_zeros_that_the_law_refuses(fr
     frames.flypend_rod(*[_pointer(zero)] * 4, _pointer(y), _pointer(y_dot))
     frames.flypend_rotation_of_wxyz(*[ctypes.c_double(0)] * 4, _pointer(R))
     assert not np.any([*y, *y_dot, *R])
+    frames.flypend_rotation_of_wxyz(*map(ctypes.c_double, (0, 1e200, 0, 0)), _pointer(R))  # upside down, not upright
+    assert not np.any(R)
 
 
 def test_what_goes_along_the_rod_is_dropped(frames):

@@ -26,6 +26,7 @@ from tests.few import each_once, slow
 
 VEHICLES = {name: fp.vehicle(name) for name in ("hehn2011", "crazyflie")}
 VEHICLE = VEHICLES["hehn2011"]
+VEHICLES["prompt"] = VEHICLE.replace(rotor_lag=0.0)
 LAW = fp.laws.inverted()  # one, which is compiled once
 INVERTED = LAW.bind(VEHICLE)
 OK, NULL, NOT_FINITE, ROD, ATTITUDE, PARAMS, SINGULAR, WRONG_VEHICLE, NOT_BEGUN = range(9)
@@ -44,7 +45,7 @@ def board(precision="double", rate=500.0, law=INVERTED, vehicle=VEHICLE):
     ("machine", "name", "rate"),
     [
         ("crazyflie", "inverted", 300.0), ("hehn2011", "light", 100.0), ("crazyflie", "corrected", 500.0),
-        ("hehn2011", "learned", 500.0), slow("hehn2011", "inverted", 500.0),
+        ("hehn2011", "learned", 500.0), ("prompt", "corrected", 500.0), slow("hehn2011", "inverted", 500.0),
         slow("hehn2011", "lqr", 100.0),
     ],
 )  # fmt: skip

@@ -56,6 +56,11 @@ def test_it_compiles_without_a_warning_and_gives_the_numbers_of_python(exports, 
     assert "100 periods" in said
 
 
+def test_no_vector_lies_so_near_an_exceptional_set_that_rounding_decides(tmp_path):
+    fp.export_c(fp.laws.almost_global(), fp.vehicle("hummingbird"), tmp_path, precision="float", check=False)
+    assert "100 vectors" in run([str(build(tmp_path, ("flypend_law.c", "flypend_test.c"), "test"))])
+
+
 def test_a_wrong_number_in_the_vectors_is_found(exports, tmp_path):
     folder = exports("corrected", "double")
     text = (folder / "flypend_vectors.h").read_text()

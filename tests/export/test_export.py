@@ -179,8 +179,8 @@ def test_vehicle_and_gains_are_inputs_at_run_time(monkeypatch):
     assert _apart(rotors, wanted.rotors, 1.0) < 1e-12
 
 
-def test_six_rotors_and_a_full_inertia_matrix():
-    vehicle = hexarotor(VEHICLE)
+def test_six_rotors_a_full_inertia_matrix_and_a_rod_with_an_extent():
+    vehicle = hexarotor(VEHICLE).replace(rod_inertia=1e-2)
     for law in (fp.laws.inverted().bind(vehicle), fp.laws.corrected(yaw_damping=2.0).bind(vehicle)):
         wanted = vectors.vectors(law, vehicle, 200, 2, "double")
         wrench, rotors, status = library(law, vehicle, "double").step(wanted.state, wanted.reference)
@@ -222,8 +222,8 @@ def test_lead_within_limits_and_the_model_of_the_rotors():
     assert np.allclose(led(share), wanted + (1 - share) * (modelled - wanted))
 
 
-def test_a_name_does_not_end_the_comment_that_it_stands_in():
-    vehicle = VEHICLE.replace(name="mine */ +")
+def test_a_name_neither_ends_nor_begins_a_comment():
+    vehicle = VEHICLE.replace(name="mine */ + /*/")
     assert library(fp.laws.inverted(), vehicle, "double").made.vehicle == vehicle  # it compiles
 
 
@@ -392,6 +392,7 @@ def test_what_cannot_be_exported_is_refused_and_nothing_is_written(tmp_path):
         (_own(lambda t, s, v, k: Wrench(ca.sin(s.x[2]), ca.SX.zeros(3))), VEHICLE, "square root, got sin"),
         (_own(lambda t, s, v, k: Wrench(t, ca.SX.zeros(3))), VEHICLE, "one that does not depend on time"),
         (_own(lambda t, s, v, k: Wrench(float(v.M), ca.SX.zeros(3))), VEHICLE, "a symbol is not a number"),
+        (_own(lambda t, s, v, k: Wrench(k.throw, ca.SX.zeros(3)), gains={"throw": 1.0}), VEHICLE, "C\\+\\+, got throw"),
         (fp.Controller(name="python", function=lambda t, s: hover), VEHICLE, "law: expected a Law"),
         (fp.laws.inverted(), asymmetric, "rotors that share thrust and yaw equally"),
         (fp.laws.inverted(), "hehn2011", "vehicle: expected a Vehicle"),

@@ -199,6 +199,9 @@ def test_it_keeps_what_its_header_promises(plan, exported):
     turned = start.copy()
     turned[18:21] = -turned[18:21] + 0.3
     assert in_c.command(0.0, turned)[0] == 1
+    waiting = InC(folder, precision)
+    assert waiting.improve(-1.0, start) == 2  # in the second before the plan, the vehicle would fall away from it
+    assert waiting.improve(0.0, start) == 0
     needed = set(re.findall(r" U (\w+)", run(["nm", "-D", "-u", "nmpc.so"], folder)))
     assert needed <= {"sqrt", "sqrtf", "__stack_chk_fail"}
 
@@ -217,6 +220,16 @@ def test_the_command_writes_it_beside_the_law(tmp_path):
     cli.app(words, standalone_mode=False)
     assert "typedef float flypend_real" in (out / "flypend_law.h").read_text()
     assert (out / "flypend_nmpc.c").exists()
+
+
+def test_the_command_writes_all_or_nothing(tmp_path, monkeypatch, plan):
+    monkeypatch.setattr(fp, "plan", lambda *_: plan)
+    (tmp_path / "README.md").write_text("mine")
+    for name, more, what in (("taken", [], "a folder that an export wrote"), ("new", ["--rate", "3"], "rate")):
+        out = tmp_path if name == "taken" else tmp_path / name
+        with pytest.raises(fp.InputError, match=what):
+            cli.app(["export-c", "--law", "nmpc", "--no-check", "--out", str(out), *more], standalone_mode=False)
+    assert [path.name for path in tmp_path.iterdir()] == ["README.md"]
 
 
 def test_headers_of_one_precision_stand_beside_each_other_in_c_and_cpp(plan, tmp_path):

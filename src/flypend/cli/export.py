@@ -37,6 +37,8 @@ def export_c(
     that improves the plan in flight.
     """
     from flypend.compile.c99 import PRECISIONS
+    from flypend.export.write import BESIDE, check_folder
+    from flypend.files.staging import staging
     from flypend.plants.sensors import sensors_called
 
     if light:
@@ -47,9 +49,11 @@ def export_c(
         warnings.simplefilter("always", UserWarning)
         read = sensors_called(sensors_asked(sensors), "--sensors")
         machine = fp.vehicle(vehicle)
-        if law == "nmpc":
-            fp.export_nmpc(fp.plan(machine, fp.State(y=(0, 0, -1))), out, precision=kind)
-        fp.export_c(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
+        check_folder(out, BESIDE)
+        with staging(out) as folder:
+            if law == "nmpc":
+                fp.export_nmpc(fp.plan(machine, fp.State(y=(0, 0, -1))), folder, precision=kind)
+            fp.export_c(chosen, machine, folder, precision=kind, rate=rate, sensors=read, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     if law == "nmpc":

@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from flypend.compile.record import Field, Record
+from flypend.errors import InputError
 from flypend.laws import BoundLaw
 from flypend.model import Vehicle
 from flypend.model.state import FLIP, SIZE
@@ -20,6 +21,15 @@ from flypend.model.state import FLIP, SIZE
 ORDERS = ("", "_dot", "_ddot", "_dddot", "_ddddot")
 PATH_ORDERS = 9
 FORCES = 6  # external forces on vehicle and bob
+# What Python has as names, but C or C++ for something else. Gains are fields of a struct.
+RESERVED = (
+    "alignas alignof and_eq asm auto bitand bitor bool case catch char char16_t char32_t char8_t co_await co_return "
+    "co_yield compl concept const const_cast consteval constexpr constinit decltype default delete do double "
+    "dynamic_cast enum explicit export extern false float friend goto inline int long mutable namespace new noexcept "
+    "not_eq nullptr operator or_eq private protected public register reinterpret_cast requires restrict short signed "
+    "sizeof static static_assert static_cast struct switch template this thread_local throw true typedef typeid "
+    "typename typeof union unsigned using virtual void volatile wchar_t xor xor_eq"
+)
 UNITS = ("m", "m/s", "m/s²", "m/s³", "m/s⁴")
 
 _MOTION = (
@@ -116,7 +126,9 @@ def params_of(vehicle: Vehicle) -> Any:
 
 
 def gains_record(law: BoundLaw, names: Sequence[str]) -> Record:
-    """The gains `names` of `law` that its equations contain."""
+    """The gains `names` of `law` that its equations contain. Raises InputError for a name that C or C++ reserves."""
+    if taken := set(RESERVED.split()).intersection(names):
+        raise InputError("law", "gains with other names than words of C and C++", ", ".join(sorted(taken)))
     fields = tuple(Field(name, 0, law.table[name].describe() or "see the law") for name in names)
     return Record("gains", f"Gains of the {law.name} law.", fields or (Field("none", 0, "no gain is left; keep 0"),))
 

@@ -25,10 +25,12 @@ _ASCII = {
 
 
 def ascii_of(text: str) -> str:
-    """`text` in letters that every compiler and editor knows, and that do not end a comment."""
+    """`text` in letters that every compiler and editor knows, and that neither end a comment nor begin one."""
     for sign, plain in _ASCII.items():
         text = unicodedata.normalize("NFC", text).replace(sign, plain)
-    return unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().replace("*/", "* /")
+    return (
+        unicodedata.normalize("NFKD", text).encode("ascii", "ignore").decode().replace("*/", "* /").replace("/*", "/ *")
+    )
 
 
 def struct(record: Record, unused: Sequence[str] = ()) -> str:
@@ -93,10 +95,11 @@ def initializer(record: Record, values: Any, precision: Precision) -> str:
     return "{" + ", ".join(f"{{{text}}}" if size else text for text, size in parts) + "}"
 
 
-def _call_of(board: Routine, inputs: Sequence[str]) -> str:
-    """The call of the function of a `board` with C expressions of its input vectors."""
-    given = ["in->rest", *(inputs[i] for i in inputs_used_by(board)), "in->memory", "in->command"]
-    return f"fly({', '.join(given)});"
+def _call_of(
+    routine: Routine, inputs: Sequence[str], outputs: str = "in->memory, in->command", memory: str = "in->rest"
+) -> str:
+    """The call of the function of a `routine` with C expressions of its vectors and of its scratch `memory`."""
+    return f"{routine.name}({', '.join([memory, *(inputs[i] for i in inputs_used_by(routine)), outputs])});"
 
 
 # Programs that check a state, and that answer where it cannot be used.
@@ -128,6 +131,13 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
         "conversions": "\n\n".join([*map(numbers_of, inputs), *map(record_of, outputs)]),
         "call_board": _call_of(
             made.board, ("board->memory", "in->measurement", "path", "gains_numbers(&board->gains)", "p")
+        ),
+        "call_unmeasured": _call_of(made.unmeasured, ("board->memory", "in->command"), "in->memory"),
+        "call_pass": _call_of(
+            made.unmeasured,
+            ("board->memory", "board->memory + FLYPEND_MEMORY_COMMANDS"),
+            "board->scratch.memory",
+            "board->scratch.rest",
         ),
         "call_begin": call(programs["begin"], ("forces",), ["board->memory"], "board->scratch.rest"),
         "call_share_safe": call(programs["share"], ("w", "p"), ["command"], "rest"),

@@ -47,6 +47,28 @@ def vectors(law: BoundLaw, vehicle: Vehicle, count: int, seed: int, precision: P
     return Vectors(state, reference, wrench, rotors)
 
 
+def steady_vectors(
+    law: BoundLaw, vehicle: Vehicle, count: int, seed: int, precision: Precision, most: float
+) -> Vectors:
+    """Return the first `count` of `vectors` whose wrench moves by `most` at most (relative) with the inputs' last bits.
+
+    Next to an exceptional set a law may amplify these beyond every tolerance, and so does its C code.
+    """
+    draws = (vectors(law, vehicle, count, each, precision) for each in (seed, seed + 1))
+    found = Vectors(*(np.concatenate(both) for both in zip(*draws, strict=True)))
+    answer, rng = answers(law, vehicle), np.random.default_rng(seed)
+    last = np.finfo(np.float32 if precision == "float" else float).eps
+    moved = np.zeros(2 * count)
+    for _ in range(4):
+        inputs = (v * (1 + last / 2 * rng.choice([-1, 1], v.shape)) for v in (found.state, found.reference))
+        change = np.array(answer(*(v.T for v in inputs))[0]).T - found.wrench
+        for part, scale in zip((slice(1), slice(1, 4)), scales(vehicle), strict=True):
+            size = np.maximum(np.abs(found.wrench[:, part]).max(axis=1), scale)
+            moved = np.maximum(moved, np.abs(change[:, part]).max(axis=1) / size)
+    kept = np.argsort(~(moved <= most), kind="stable")[:count]
+    return Vectors(*(values[kept] for values in found))
+
+
 def random_inputs(vehicle: Vehicle, count: int, seed: int, precision: Precision) -> tuple[Any, Any]:
     """Random numbers of `records.STATE`, and of `records.REFERENCE` on random paths, rounded to `precision`."""
     rng = np.random.default_rng(seed)

@@ -100,8 +100,10 @@ def export_c(
     errors.one_of("precision", precision, PRECISIONS)
     errors.number("rate", rate, above=0, at_most=1e4, unit="Hz")
     made = interface(law, vehicle, rate, sensors_called(sensors, "sensors"))
+    texts = core(made, precision)
     values = values_of(made, precision) | _vectors(made, precision)
-    texts = core(made, precision) | {name: fill(name, values) for name in BESIDE}
+    values["sources"] = " ".join(name for name in texts if name.endswith(".c"))
+    texts |= {name: fill(name, values) for name in BESIDE}
     if check:
         found = fly_tests(law, vehicle, rate)
         texts[HEADER] = texts[HEADER].replace(GUARD, f"{found.comment()}{GUARD}", 1)
@@ -251,7 +253,8 @@ def _structs(made: Interface) -> list[str]:
 
 def _vectors(made: Interface, precision: Precision) -> dict[str, str]:
     """What the template of the test vectors takes."""
-    found = vectors.vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision)
+    steady = TOLERANCE[precision] / 10
+    found = vectors.steady_vectors(made.law, made.vehicle, vectors.COUNT, vectors.SEED, precision, steady)
     flights = vectors.flights(made.loop, vectors.FLIGHTS, vectors.STEPS, vectors.SEED, precision, made.law)
     if not all(np.isfinite(each).all() for each in flights):
         raise InputError("rate", "one at which flights stay finite", f"{made.loop.sampled.rate:g} Hz")

@@ -49,6 +49,7 @@ from flypend.laws.throw import (
     steering_force,
 )
 from flypend.model import Disturbance, State, Vehicle, Wrench, disturbed_motion, lie_derivative
+from flypend.model.altered import Altered
 
 # ε in the thrust axis's target F + ε (M+m) g e₃, which points along e₃ where the desired force F vanishes (free fall).
 AXIS_LIFT = 0.028
@@ -188,7 +189,9 @@ def _cascade(
     present = force(nearer, path_nearer, pose._replace(low=low_rod(nearer, state.z, path_nearer.up, k)))
     f = ca.fmin(ca.fmax(dot(calm * present + brake, state.z), 0), spin.thrust * largest_thrust(vehicle))
     wrench = Wrench(f, ca.SX.sym("moment", 3))
-    rates = disturbed_motion(state, wrench, vehicle, "up", Disturbance(*forces))
+    # Observed forces are those on the equivalent point bob and its mass at the pivot: the rod shares none of them out.
+    point_bob: Any = Altered(vehicle, rod_inertia=0.0)
+    rates = disturbed_motion(state, wrench, point_bob, "up", Disturbance(*forces))
 
     def axis(turned: Vector) -> Vector:
         return lift(turned, k.tilt_limit) + AXIS_LIFT * vehicle.weight * (HELD.z if ideal else E3)

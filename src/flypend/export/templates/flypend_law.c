@@ -244,7 +244,7 @@ flypend_status flypend_board_step(flypend_board *board, const flypend_measuremen
     }
     if (begun) {
         if (status != FLYPEND_OK) {
-            unmeasured(in->rest, board->memory, in->command, in->memory);
+            $call_unmeasured
         }
         remember(board);
     }
@@ -260,7 +260,7 @@ flypend_status flypend_board_pass(flypend_board *board)
     if (!has_begun(board)) {
         return FLYPEND_NOT_BEGUN;
     }
-    unmeasured(board->scratch.rest, board->memory, board->memory + FLYPEND_MEMORY_COMMANDS, board->scratch.memory);
+    $call_pass
     remember(board);
     return FLYPEND_OK;
 }

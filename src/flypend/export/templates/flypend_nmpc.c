@@ -533,10 +533,10 @@ int flypend_nmpc_improve(flypend_nmpc *n, real t, const real *state, const real 
 {
     real here[STATE], off[OFF], command[ROTORS], sum = join(t, state, rotors, here), h, at = 0;
     int i, k, first, count, good, next;
-    if (n->ready || !(sum >= 0) || !(t < stage * (real)STAGES)) {
+    if (n->ready || !(sum >= 0) || (t < 0) || !(t < stage * (real)STAGES)) {
         return 2;
     }
-    next = 1 + ((t > 0) ? (int)(t / tick + $short) : 0);
+    next = 1 + (int)(t / tick + $short);
     first = next / PHASES;
     if ((next < n->next) || (first >= STAGES)) {
         return 2;

@@ -90,8 +90,8 @@ int flypend_nmpc_command(flypend_nmpc *nmpc, flypend_real t, const flypend_real 
 
 /* Improve the plan from the next tick after t (s) on, when the result is due, with the flight at `state` and `rotors` at t:
  * there is a tick to compute it, over which the state is predicted. Returns 0; 1 if the iteration failed; 2 if there was
- * nothing to do: a result is not taken yet, the tick had its iteration, the plan has ended, or an input is not a finite
- * number. Unless it returns 0, the plan that is flown stays as it is. */
+ * nothing to do: t is before 0, a result is not taken yet, the tick had its iteration, the plan has ended, or an input is
+ * not a finite number. Unless it returns 0, the plan that is flown stays as it is. */
 int flypend_nmpc_improve(flypend_nmpc *nmpc, flypend_real t, const flypend_real *state, const flypend_real *rotors);
 
 #ifdef __cplusplus

@@ -36,15 +36,15 @@ void flypend_rotation_of_wxyz(flypend_real w, flypend_real x, flypend_real y, fl
 {
     const flypend_real square = w * w + x * x + y * y + z * z;
     const flypend_real s = (square > 0) ? 2 / square : 0;
-    R[0] = (square > 0) ? 1 - s * (y * y + z * z) : 0;
+    R[0] = (s > 0) ? 1 - s * (y * y + z * z) : 0;
     R[1] = s * (x * y - w * z);
     R[2] = s * (x * z + w * y);
     R[3] = s * (x * y + w * z);
-    R[4] = (square > 0) ? 1 - s * (x * x + z * z) : 0;
+    R[4] = (s > 0) ? 1 - s * (x * x + z * z) : 0;
     R[5] = s * (y * z - w * x);
     R[6] = s * (x * z - w * y);
     R[7] = s * (y * z + w * x);
-    R[8] = (square > 0) ? 1 - s * (x * x + y * y) : 0;
+    R[8] = (s > 0) ? 1 - s * (x * x + y * y) : 0;
 }
 
 void flypend_flip(const flypend_real from[3], flypend_real to[3])

@@ -13,8 +13,8 @@ extern "C" {
 /* Degrees to radians. */
 flypend_real flypend_radians(flypend_real degrees);
 
-/* The rotation from body to world of a quaternion w, x, y, z, by rows. It is normalised first; one of length 0 gives a
- * matrix of zeros, which the flight computer refuses. */
+/* The rotation from body to world of a quaternion w, x, y, z, by rows. It is normalised first; one of length 0,
+ * or whose square overflows, gives no rotation, which the flight computer refuses. */
 void flypend_rotation_of_wxyz(flypend_real w, flypend_real x, flypend_real y, flypend_real z, flypend_real R[9]);
 
 /* The same vector in axes turned by half a turn about the first: north-east-down to north-west-up, front-right-down to

@@ -202,6 +202,13 @@ def test_a_machine_with_slow_rotors_stays_in_its_place():
     assert states.y[:, 2].max() < -0.4
 
 
+def test_a_rehearsal_does_not_know_what_it_draws(found):
+    """A machine that was identified has bands of delay, sag and strengths: of a flight other than the rehearsed one."""
+    guess, _ = rehearsal_of(found.vehicle, duration=10.5)
+    assert {"delay", "sag", "strength"} < set(found.vehicle.bands)
+    assert set(guess.bands) == {"mass", "bob_mass", "pivot_offset", "rotor_drag"}
+
+
 def test_a_lag_that_may_be_none_is_known_before():
     search = search_from(GUESS.replace(bands={"rotor_lag": (0.0, 0.1)}), pwm=False, accelerometer=True)
     spread = search.spread[places(search.table)["lag"]]

@@ -138,6 +138,16 @@ def test_the_report_says_what_was_found_and_how_well(found):
     assert "NOT converged" not in said or found._fit.passes == 12
 
 
+def test_the_report_says_of_each_number_of_a_field_whether_the_log_tells_it(found):
+    at, doubt = places(found._fit.search.table), np.array(found._fit.covariance)
+    place = at["inertia"].stop - 1
+    doubt[place, place] = found._fit.search.spread[place] ** 2
+    one = conclude(replace(found._fit, covariance=doubt), GUESS, 0.005)
+    said = {line.split()[0]: line.endswith("as known before") for line in one.report().split("\n\n")[0].splitlines()}
+    assert [said[f"inertia[{i}]"] for i in range(3)] == [False, False, True]
+    assert "inertia" in one.untold
+
+
 def test_numbers_of_the_file_are_within_its_bands_and_reported(found):
     """Also where a step of the search broke the triangle inequality, and where the band of the drag begins at 0."""
     at, theta = places(found._fit.search.table), found._fit.theta.copy()

@@ -271,6 +271,20 @@ def test_a_log_that_begins_on_the_ground_is_refused_as_such(log):
         fit(replace(flown, position=position, command=command), GUESS, np.zeros(3), pwm=False)
 
 
+@pytest.mark.parametrize(
+    ("name", "factor", "said"),
+    [
+        ("rod", -1, "column rz: expected a hanging rod"),
+        ("force", 1 / 9.81, "columns ax, ay, az: expected about 9.81 m/s² in hover"),
+        ("command", 1 / TRUE.rotor_limits[1], r"take-off on \(or command='pwm'\)"),
+    ],
+)
+def test_a_wrong_sign_or_unit_is_named_before_the_search(log, name, factor, said):
+    flown = read_log(log)
+    with pytest.raises(InputError, match=said):
+        fit(replace(flown, **{name: factor * getattr(flown, name)}), GUESS, np.zeros(3), pwm=False)
+
+
 @pytest.mark.parametrize("length", [0.7586374133985795, 0.35709547801928937, 0.6])
 def test_a_bob_at_the_end_of_the_guess_stays_there(found, length):
     """With the first two lengths 0.7 (length/0.7) is rounded to less, which a vehicle refuses as the rod's end."""

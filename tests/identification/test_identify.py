@@ -138,6 +138,16 @@ def test_the_report_says_what_was_found_and_how_well(found):
     assert "NOT converged" not in said or found._fit.passes == 12
 
 
+def test_the_report_says_of_each_number_of_a_field_whether_the_log_tells_it(found):
+    at, doubt = places(found._fit.search.table), np.array(found._fit.covariance)
+    place = at["inertia"].stop - 1
+    doubt[place, place] = found._fit.search.spread[place] ** 2
+    one = conclude(replace(found._fit, covariance=doubt), GUESS, 0.005)
+    said = {line.split()[0]: line.endswith("as known before") for line in one.report().split("\n\n")[0].splitlines()}
+    assert [said[f"inertia[{i}]"] for i in range(3)] == [False, False, True]
+    assert "inertia" in one.untold
+
+
 def test_numbers_of_the_file_are_within_its_bands_and_reported(found):
     """Also where a step of the search broke the triangle inequality, and where the band of the drag begins at 0."""
     at, theta = places(found._fit.search.table), found._fit.theta.copy()
@@ -202,6 +212,13 @@ def test_a_machine_with_slow_rotors_stays_in_its_place():
     assert states.y[:, 2].max() < -0.4
 
 
+def test_a_rehearsal_does_not_know_what_it_draws(found):
+    """A machine that was identified has bands of delay, sag and strengths: of a flight other than the rehearsed one."""
+    guess, _ = rehearsal_of(found.vehicle, duration=10.5)
+    assert {"delay", "sag", "strength"} < set(found.vehicle.bands)
+    assert set(guess.bands) == {"mass", "bob_mass", "pivot_offset", "rotor_drag"}
+
+
 def test_a_lag_that_may_be_none_is_known_before():
     search = search_from(GUESS.replace(bands={"rotor_lag": (0.0, 0.1)}), pwm=False, accelerometer=True)
     spread = search.spread[places(search.table)["lag"]]
@@ -252,6 +269,20 @@ def test_a_log_that_begins_on_the_ground_is_refused_as_such(log):
     position[:200], command[:200] = position[0], 0.1
     with pytest.raises(InputError, match="one that begins at rest"):
         fit(replace(flown, position=position, command=command), GUESS, np.zeros(3), pwm=False)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "said"),
+    [
+        ("rod", -1, "column rz: expected a hanging rod"),
+        ("force", 1 / 9.81, "columns ax, ay, az: expected about 9.81 m/s² in hover"),
+        ("command", 1 / TRUE.rotor_limits[1], r"take-off on \(or command='pwm'\)"),
+    ],
+)
+def test_a_wrong_sign_or_unit_is_named_before_the_search(log, name, factor, said):
+    flown = read_log(log)
+    with pytest.raises(InputError, match=said):
+        fit(replace(flown, **{name: factor * getattr(flown, name)}), GUESS, np.zeros(3), pwm=False)
 
 
 @pytest.mark.parametrize("length", [0.7586374133985795, 0.35709547801928937, 0.6])

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from flypend.errors import InputError
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.identification.log import CRAZYFLIE, NEEDED, _check, _from_crazyflie, parse_log, read_log
+from flypend.identification.log import CRAZYFLIE, NEEDED, POSE, ROD, _check, _from_crazyflie, parse_log, read_log
 
 NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
 
@@ -88,6 +88,19 @@ def test_empty_cells_are_no_readings_and_commands_are_held():
     assert np.isnan(log.rotation[7]).all()
     assert np.isnan(log.rod[7]).any()
     assert log.command[7, 1] == log.command[6, 1] == float(rows[7][NAMES.index("u2")])
+
+
+def test_a_pose_that_is_kept_until_the_next_was_measured_once():
+    rows = table()
+    kept = [rows[0].index(name) for name in (*POSE, *ROD)]
+    for k in range(2, len(rows), 2):
+        for i in kept:
+            rows[k][i] = rows[k - 1][i]
+    log = parse_log(text(rows))
+    for stream in (log.position, log.rotation, log.rod):
+        assert np.isfinite(stream[::2]).all()
+        assert np.isnan(stream[1::2]).all()
+    assert np.isfinite(log.gyro).all()
 
 
 def without(rows, name):

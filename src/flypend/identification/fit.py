@@ -146,6 +146,7 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
     """
     check_in_air(log, vehicle, pwm)
     log = drop_wild(log)
+    check_hangs(log, vehicle)
     search = search_from(vehicle, pwm, bool(np.isfinite(log.force).any()))
     programs = Programs(moves(vehicle), reads(vehicle, marker))
     first = noises = first_noises(vehicle, log)
@@ -208,7 +209,19 @@ def check_in_air(log: Log, vehicle: Vehicle, pwm: bool) -> None:
     thrust = log.command[rows].sum(axis=1) * (vehicle.rotor_limits[1] if pwm else 1.0)
     at = log.position[rows][np.isfinite(log.position[rows]).all(axis=1)]
     if thrust.max() < vehicle.weight / 2 and len(at) and np.ptp(at, axis=0).max() < AT_REST:
-        raise InputError(log.name, "a flight from after take-off on", "one that begins at rest")
+        fractions = " (or command='pwm')" if not pwm and log.command.max() <= 1 else ""
+        raise InputError(log.name, f"a flight from after take-off on{fractions}", "one that begins at rest")
+
+
+def check_hangs(log: Log, vehicle: Vehicle) -> None:
+    """Raise InputError if the rod of `log` stands, or if what its accelerometer felt is not about g."""
+    up, felt = log.rod[:, 2], np.linalg.norm(log.force, axis=1)
+    up, felt = up[np.isfinite(up)], felt[np.isfinite(felt)]
+    if len(up) and np.median(up) > 0:
+        raise InputError(f"{log.name}, column rz", "a hanging rod, from pivot to bob, with e₃ up", "one that stands")
+    if len(felt) and not vehicle.gravity / 2 < (usual := float(np.median(felt))) < 2 * vehicle.gravity:
+        wanted = f"about {vehicle.gravity:.3g} m/s² in hover (not g, and gravity not subtracted)"
+        raise InputError(f"{log.name}, columns ax, ay, az", wanted, f"{usual:.3g}")
 
 
 def _lost(begun: Pass, log: Log) -> InputError:

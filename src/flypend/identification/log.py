@@ -144,11 +144,6 @@ def _from_crazyflie(variables: dict[str, Any], field: str) -> Log:
     groups = {theirs.partition(".")[0] for theirs in variables}
     called = sorted(CRAZYFLIE, key=lambda theirs: theirs.partition(".")[0] in groups)
     rotors = _check_header(list(columns), field, {CRAZYFLIE[theirs][0]: theirs for theirs in called})
-    if sent := [name for name in POSE if f"locSrv.{name}" in variables]:
-        # The firmware keeps the last pose until the next one comes: it was measured once.
-        pose = np.stack([columns[name] for name in sent])
-        again = np.append(False, (pose[:, 1:] == pose[:, :-1]).all(axis=0))
-        columns |= {name: np.where(again, np.nan, columns[name]) for name in sent}
     return _check(columns, rotors, field, fractions=True)
 
 
@@ -216,6 +211,11 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)
               for name, names in (("position", POSE[:3]), ("q", POSE[3:]), ("gyro", GYRO), ("force", FORCE),
                                   ("rod", ROD))}  # fmt: skip
+    for names in (("position", "q"), ("rod",)):
+        # Many loggers keep the last pose until the next one comes: it was measured once.
+        sent = np.concatenate([groups[name] for name in names], axis=1)
+        again = np.append(False, (sent[1:] == sent[:-1]).all(axis=1))
+        groups |= {name: np.where(again[:, None], np.nan, groups[name]) for name in names}
     for name in ("position", "q", "gyro"):
         if np.isfinite(groups[name]).all(axis=1).sum() < SLOWEST:
             raise InputError(field, f"rows with all of {name} measured", "next to none")

@@ -39,6 +39,7 @@ ATTITUDE, LAG_SHARE, ATTITUDE_DAMPING, TRIM, PLACE_SHARE, SWAY = 12.0, 0.5, 2.4,
 ACCELEROMETER = 0.1  # m/s², standard deviation of its noise
 SCALE = 0.93  # of the rotors of a rehearsal
 WRONG = ("rod_length", "inertia", "drag_ratio", "rotor_lag")  # in its guess
+DRAWN = ("thrust_scale", "strength", "sag", "spin_up", "delay", "latency")  # other than the vehicle's bands may say
 LONGEST = 600.0  # s, of a rehearsal; a log of more tells no more
 
 
@@ -155,9 +156,9 @@ def _feedback(t: float, read: Any, turned: Any, vehicle: Vehicle, attitude: floa
 def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> tuple[Vehicle, Rehearsal]:
     """Return a guess at `vehicle`, wrong by some tenths, and its flight in air, with gusts, noise, sag and delay.
 
-    The guess has no bands of the numbers in `WRONG`. The rotors push `SCALE` times what `vehicle` says. Delay, sag and
-    strengths are drawn by `seed`. Raises InputError for a `duration` (s) whose log `read_log` would not take, or longer
-    than `LONGEST`.
+    The guess has no bands of the numbers in `WRONG` and `DRAWN`. The rotors push `SCALE` times what `vehicle` says.
+    Delay, sag and strengths are drawn by `seed`. Raises InputError for a `duration` (s) whose log `read_log` would not
+    take, or longer than `LONGEST`.
     """
     errors.number("duration", duration, at_least=SHORTEST + 0.5, at_most=LONGEST, unit="s")
     rng = np.random.default_rng(seed)
@@ -168,7 +169,7 @@ def rehearsal_of(vehicle: Vehicle, *, duration: float = 60.0, seed: int = 0) -> 
     guess = vehicle.replace(
         **stretch(vehicle, 1.0, off(0.1)), drag_ratio=vehicle.drag_ratio * off(0.3),
         inertia=vehicle.inertia * off(0.3), rotor_lag=0.03,
-        bands={name: band for name, band in (vehicle.bands or {}).items() if name not in WRONG},
+        bands={name: band for name, band in (vehicle.bands or {}).items() if name not in WRONG + DRAWN},
     )  # fmt: skip
     gust = 0.02 * vehicle.commanded().weight
     plant = Plant(

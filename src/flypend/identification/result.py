@@ -55,7 +55,7 @@ class Identified:
     plant : Plant
         Sampled plant with the delay, sag, spin-up and strengths of the rotors that were found.
     untold : tuple of str
-        Fields about which the log says next to nothing: they stay near the guess.
+        Fields with a number about which the log says next to nothing: it stays near the guess.
     """
 
     vehicle: Vehicle
@@ -70,10 +70,14 @@ class Identified:
         fit, machine, lines = self._fit, self.vehicle, []
         found = fit.search.values(fit.theta) | vars(self.plant) | vars(machine) | {"inertia": np.diag(machine.inertia)}
         found["rotor_drag"] = np.maximum(found["rotor_drag"], 0.0)
+        left = _left_open(fit)
         for name, ends in self.bands.items():
+            # Strengths share their patterns: what leaves one of these open leaves all of them so.
+            as_before = np.any(left[name]) if name == "strength" else left.get(name, False)
+            as_before = np.broadcast_to(as_before, np.shape(np.ravel(ends[0])))
             for i, (value, a, b) in enumerate(zip(*map(np.ravel, (found[name], *ends)), strict=True)):
                 label = name if np.size(ends) == 2 else f"{name}[{i}]"
-                said = "  as known before" if name in self.untold else ""
+                said = "  as known before" if as_before[i] else ""
                 lines.append(f"{label:16s} {value:12.5g}   {a:.5g} to {b:.5g}{said}")
         low, high = self.torque_over_inertia
         ratio = machine.drag_ratio / machine.inertia[2, 2]
@@ -139,17 +143,19 @@ def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
     spread = T_975 * np.sqrt(np.einsum("ij,jk,ik->i", basis, fit.covariance[at["shares"], at["shares"]], basis))
     strength = np.exp(basis @ shares)
     bands["strength"] = _band(strength * np.exp(-spread), strength * np.exp(spread))
-    untold = tuple(
-        FIELDS.get(name, name)
-        for name, place in at.items()
-        if FIELDS.get(name, name) in bands and np.any(errors[place] > LEARNED * search.spread[place])
-    )
+    untold = tuple(field for field, left in _left_open(fit).items() if field in bands and np.any(left))
     vehicle = _machine(guess, values, bands)
     plant = Plant(
         delay=float(values["delay"][0]), sag=float(values["sag"][0]), spin_up=float(values["spin_up"][0]),
         strength=tuple(strength),
     )  # fmt: skip
     return Identified(vehicle, bands, plant.delay, plant, untold, fit)
+
+
+def _left_open(fit: Fit) -> dict[str, Any]:
+    """Return, by field, of which of the numbers searched the log says next to nothing."""
+    left = np.sqrt(np.diag(fit.covariance)) > LEARNED * fit.search.spread
+    return {FIELDS.get(name, name): left[place] for name, place in places(fit.search.table).items()}
 
 
 def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> Vehicle:

@@ -32,6 +32,13 @@ def test_a_callable_law_has_no_live_page(tmp_path):
         live_loop(run.flight)
 
 
+def test_the_ideal_plant_with_lag_has_no_live_page(tmp_path):
+    """Its state holds a wrench, which the page would take for the next sample of the motion."""
+    run = fp.simulate(VEHICLE, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1, plant=fp.Ideal(lag=True))
+    with pytest.raises(fp.InputError, match=r"^live: expected an ideal plant without lag, .* got Ideal\(lag=True\)$"):
+        run.to_html(tmp_path / "flight.html", live=True)
+
+
 def test_a_slider_of_a_negative_gain_reaches_as_far_to_either_side():
     reach = _reach(-2.0)
     assert reach.low == -reach.high < -2.0

@@ -39,6 +39,12 @@ hanging = fp.laws.from_function(down, e3="down", name="hanging")
 
 def inverted(t, state, vehicle):
     return fp.Wrench(vehicle.weight, 0 * state.omega)
+
+def climb(t, state, vehicle):
+    return fp.Wrench(vehicle.weight * (1 + t), 0 * state.omega)
+
+def climb_stepped(t, state, vehicle):
+    return fp.Wrench(vehicle.weight * (2 if t > 9 else 1 + t), 0 * state.omega)
 """
 NAMES = ("hold", "stepped", "hanging", "inverted")
 
@@ -85,6 +91,18 @@ def test_compiled_and_stepped_fly_alike_with_a_poke(own):
     np.testing.assert_allclose(runs[0].x, runs[1].x, atol=1e-9)
     np.testing.assert_allclose(runs[0].rotor_forces, runs[1].rotor_forces, atol=1e-9)
     assert not np.allclose(runs[0].x[-1], fly(setting_of(asked("hold"), own)).x[-1], atol=1e-3)
+
+
+@pytest.mark.parametrize("plant", ["rotors", "ideal"])
+@pytest.mark.parametrize("name", ["climb", "climb_stepped"])
+def test_the_clock_of_a_law_goes_on_through_a_poke(own, tmp_path, name, plant):
+    laws = OwnLaws([f"{tmp_path / 'mine.py'}:{name}"])
+    nothing = [{"time": 0.2, "on": "bob", "velocity": [0, 0, 0]}]
+    alone = fly(setting_of(asked(name, plant, duration=0.6), laws))
+    struck = fly(setting_of(asked(name, plant, pokes=nothing), laws))
+    np.testing.assert_allclose(struck.t[[0, -1]], alone.t[[0, -1]], atol=1e-12)
+    np.testing.assert_allclose(struck.final.x, alone.final.x, atol=1e-6)
+    np.testing.assert_allclose(struck.thrust[-1], alone.thrust[-1], atol=1e-6)
 
 
 def test_gains_have_sliders_with_their_names(own):

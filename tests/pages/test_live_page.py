@@ -726,10 +726,17 @@ BROKEN = {
     "one limit": {"vehicle": {"rotor_limits": [1]}},
     "no direction": {"start": {"y": [0, 0, 0]}},
     "no rotation": {"start": {"R": [[1, 0, 0], [0, 1, 0], [0, 0, 2]]}},
+    "another law": {"law": {"name": "lqr"}},
+    "another vehicle": {"vehicle": {"base": "nayak2018"}},
+    "another gain": {"law": {"gains": {"k_d": 1}}},
+    "another rate": {"plant": {"rate": 50}},
+    "a longer delay": {"plant": {"delay": 0.3}},
+    "no lag": {"plant": {"lag": -1}},
+    "no limits": {"vehicle": {"rotor_limits": [3, 1]}},
 }
 
 
-ALIKE = {"half a start", "very long", "a wind of one number"}  # as others
+ALIKE = {"half a start", "very long", "a wind of one number", "another vehicle", "no lag"}  # as others
 
 
 @pytest.mark.parametrize("name", few(BROKEN.keys() - ALIKE, BROKEN))

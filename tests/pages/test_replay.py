@@ -162,7 +162,9 @@ def test_equal_legends_are_told_apart():
     assert [title for title, _ in shown(usual, level)] == ["inverted law, rod from 0°", "inverted law, rod from 90°"]
     assert [title for title, _ in shown(usual, other)] == ["inverted law, hehn2011", "inverted law, nayak2018"]
     assert [title for title, _ in shown(usual, usual)] == ["inverted law, 1", "inverted law, 2"]
-    for runs in ((usual, wide, level), (usual, usual, wide), (usual, other, wide, level)):
+    edited = dataclasses.replace(usual, gains={"k_p": 1.0})  # another law of that name
+    assert (("k_p", "1"),) in [gains for _, gains in shown(usual, edited)]
+    for runs in ((usual, wide, level), (usual, usual, wide), (usual, other, wide, level), (edited, usual)):
         assert len(set(shown(*runs))) == len(runs)
 
 

@@ -13,14 +13,16 @@ VEHICLE = fp.vehicle("hehn2011")
 
 def test_sliders_of_a_plant_stand_where_the_plant_is():
     wind = Wind(on_vehicle=(0.3, -0.1, 0.2), gust_on_vehicle=0.15)
-    sliders = {one["path"]: one for one in plant_sliders(Plant(delay=0.01, lag=0.02, wind=wind), VEHICLE)}
+    flown = Plant(delay=0.01, lag=0.02, mismatch={"rotor_lag": 1.5}, wind=wind)
+    sliders = {one["path"]: one for one in plant_sliders(flown, VEHICLE)}
     expected = {
-        "vehicle.rotor_limits": VEHICLE.rotor_limits[1], "plant.lag": 0.02, "plant.delay": 0.01,
+        "vehicle.rotor_limits": VEHICLE.rotor_limits[1], "plant.lag": 0.03, "plant.delay": 0.01,
         "plant.wind.on_vehicle": 0.3, "plant.wind.gust_on_vehicle": 0.15,
     }  # fmt: skip
     assert {name: sliders[name]["value"] for name in expected} == pytest.approx(expected)
     for one in sliders.values():
         assert one["low"] <= one["value"] <= one["high"]
+    assert sliders["plant.wind.on_vehicle"]["put"] == [{"#": 1}, -0.1, 0.2]
 
 
 def test_a_callable_law_has_no_live_page(tmp_path):
@@ -30,6 +32,13 @@ def test_a_callable_law_has_no_live_page(tmp_path):
         run.to_html(tmp_path / "flight.html", live=True)
     with pytest.raises(fp.InputError, match=r"^live: expected a law in symbols"):
         live_loop(run.flight)
+
+
+def test_the_ideal_plant_with_lag_has_no_live_page(tmp_path):
+    """Its state holds a wrench, which the page would take for the next sample of the motion."""
+    run = fp.simulate(VEHICLE, fp.laws.inverted(), fp.State(y=(0, 0, 1)), 0.1, plant=fp.Ideal(lag=True))
+    with pytest.raises(fp.InputError, match=r"^live: expected an ideal plant without lag, .* got Ideal\(lag=True\)$"):
+        run.to_html(tmp_path / "flight.html", live=True)
 
 
 def test_a_slider_of_a_negative_gain_reaches_as_far_to_either_side():

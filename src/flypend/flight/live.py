@@ -75,6 +75,8 @@ def live_loop(flight: Flight | None) -> Loop:
         raise InputError(
             "live", "a plant of the built-in equations, such as rotors", f"the plant {flight.plant.engine}"
         )
+    if flight.loop.lag:
+        raise InputError("live", "an ideal plant without lag, or a sampled one, such as rotors", "Ideal(lag=True)")
     if not isinstance(flight.law, BoundLaw):
         raise InputError("live", "a law in symbols, which can be compiled", f"the callable {flight.law.name}")
     return replace(flight.loop, parameters=tunable(flight.law))

@@ -68,37 +68,40 @@ def _fly_parts(setting: Setting, machine: Tuned | Stepped, gains: Any) -> Iterat
         lasting = flight.duration if poke is None else _struck_at(poke, flight) - begin
         if isinstance(machine, Stepped):
             noise = (flight.seed or 0) + number
-            part = _fly_stepped(machine, flight.replace(starts=state, seed=noise), lasting, rotors)
+            part = _fly_stepped(machine, flight.replace(starts=state, seed=noise), begin, lasting, rotors)
         else:
-            part, steps = _fly_ideal(machine, gains, flight.replace(starts=state), lasting, left)
+            part, steps = _fly_ideal(machine, gains, flight.replace(starts=state), begin, lasting, left)
             left -= steps
         keep = slice(min(number, 1), None)  # the blow has changed the first sample of a later part
-        outcome = replace(part.outcome, time=begin + part.outcome.time)
-        yield Samples(begin + part.t[keep], part.packed[keep], part.rotors[keep], outcome)
-        if poke is None or outcome.status != "completed":
+        yield Samples(part.t[keep], part.packed[keep], part.rotors[keep], part.outcome)
+        if poke is None or part.outcome.status != "completed":
             return
         state = poke_state(State(**split(part.packed[-1])), flight.vehicle, "up", poke).in_frame(e3)
-        begin = begin + float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
+        begin = float(part.t[-1]) if isinstance(flight.plant, Sampled) else _struck_at(poke, flight)
         rotors = part.rotors[-1]
 
 
-def _fly_stepped(machine: Stepped, flight: Flight, lasting: float, rotors: Any) -> Samples:
+def _fly_stepped(machine: Stepped, flight: Flight, begin: float, lasting: float, rotors: Any) -> Samples:
     """Fly one part of a flight in Python, from the rotor forces `rotors` (N): `lasting` s, but one tick at least."""
     assert isinstance(flight.plant, Sampled)
     rate = flight.plant.rate
-    part = flight.replace(law=machine.law, duration=max(lasting, 1 / rate))
-    return fly_stepwise(part, rotors).at(part.moments * rate)
+    law = replace(machine.law, function=lambda t, state: machine.law.function(begin + t, state))
+    part = flight.replace(law=law, duration=max(lasting, 1 / rate))
+    flown = fly_stepwise(part, rotors).at(part.moments * rate)
+    return replace(flown, t=begin + flown.t, outcome=replace(flown.outcome, time=begin + flown.outcome.time))
 
 
-def _fly_ideal(machine: Tuned, gains: Any, flight: Flight, lasting: float, left: int) -> tuple[Samples, int]:
+def _fly_ideal(
+    machine: Tuned, gains: Any, flight: Flight, begin: float, lasting: float, left: int
+) -> tuple[Samples, int]:
     """Fly one part of a flight in the ideal plant: `lasting` s, in at most `left` steps. Return how many it took."""
     if lasting == 0:
-        t, packed, outcome, steps = np.zeros(1), flight.starts.packed()[None], Outcome("completed", 0.0), 0
+        t, packed, outcome, steps = np.array([begin]), flight.starts.packed()[None], Outcome("completed", begin), 0
     else:
         assert isinstance(machine.kernel, IdealKernel)
         part = flight.replace(duration=lasting, tolerances=replace(flight.tolerances, max_steps=max(left, 1)))
-        solution = Solution(machine.kernel, part, gains)
-        outcome, t, steps = solution.outcome, part.grid, len(solution.knots) - 1
+        solution = Solution(machine.kernel, part, gains, begin)
+        outcome, t, steps = solution.outcome, begin + part.grid, len(solution.knots) - 1
         if outcome.reason.endswith(NOT_ENOUGH):
             outcome = replace(outcome, reason=SPENT)
         if outcome.status != "completed":

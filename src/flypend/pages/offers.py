@@ -115,7 +115,6 @@ def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
     """Return the sliders of the numbers of `plant` that a page may change, for a law of `vehicle`; see `slider`."""
     least, largest = vehicle.rotor_limits
     share = vehicle.weight / len(vehicle.rotor_spins)
-    lag = vehicle.rotor_lag if plant.lag is None else plant.lag
     noise, wind = plant.noise or Noise(), plant.wind or Wind()
     level = noise.x / MOTION_CAPTURE.x
     high = 0.5 * vehicle.weight
@@ -123,12 +122,12 @@ def plant_sliders(plant: Sampled, vehicle: Vehicle) -> list[dict[str, Any]]:
     seen = slider("plant.noise", "plant", "noise", "× motion capture", level, Reach(0.0, 10.0), put=_NOISE)
     return [
         slider("vehicle.rotor_limits", "plant", "rotor limit", "N", largest, strongest, put=[least, {"#": 1}]),
-        slider("plant.lag", "plant", "rotor lag", "s", lag, Reach(0.0, 0.2)),
+        slider("plant.lag", "plant", "rotor lag", "s", plant.true_vehicle(vehicle).rotor_lag, Reach(0.0, 0.2)),
         slider("plant.delay", "plant", "delay", "s", plant.delay, Reach(0.0, 0.1)),
         *([seen] if plant.sensors is None else []),  # sensors have noise of their own
         slider(
             "plant.wind.on_vehicle", "plant", "wind along e₁", "N", wind.on_vehicle[0], Reach(-high, high),
-            put=[{"#": 1}, 0.0, 0.0],
+            put=[{"#": 1}, *map(float, wind.on_vehicle[1:])],
         ),
         slider("plant.wind.gust_on_vehicle", "plant", "gusts", "N", wind.gust_on_vehicle, Reach(0.0, high)),
     ]  # fmt: skip

@@ -195,13 +195,14 @@ def names(runs: Sequence[Run]) -> list[dict[str, Any]]:
     for title in {title for title in titles if titles.count(title) > 1}:
         alike = [i for i, other in enumerate(titles) if other == title]
         given = [runs[i].gains for i in alike]
-        differing = [name for name in given[0] if len({repr(own.get(name)) for own in given}) > 1]
+        every = dict.fromkeys(name for own in given for name in own)  # a law that was edited meanwhile has others
+        differing = [name for name in every if len({repr(own.get(name)) for own in given}) > 1]
         machines = [runs[i].vehicle.name for i in alike]
         rods = [f"rod from {_tilt(runs[i]):.0f}°" for i in alike]
-        choices = (machines, differing and [str([own[name] for name in differing]) for own in given], rods)
+        choices = (machines, differing and [str([own.get(name) for name in differing]) for own in given], rods)
         found = next((choice for choice in choices if len(set(choice)) == len(alike)), None)
         for number, i in enumerate(alike):
-            gains[i] |= {name: given[number][name] for name in differing}
+            gains[i] |= {name: given[number][name] for name in differing if name in given[number]}
             if found is None or found is machines or found is rods:
                 titles[i] = f"{title}, {found[number] if found else number + 1}"
     return [{"title": title, "gains": _pairs(own)} for title, own in zip(titles, gains, strict=True)]

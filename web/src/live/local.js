@@ -2,8 +2,9 @@
 
 import source from "worker:./worker.js";
 import { floats } from "../flight.js";
+import { kind as kindOf } from "../lab/setting.js";
 import { clamp } from "../numbers.js";
-import { packed, refused, request } from "./request.js";
+import { packed, refused, request, unknown } from "./request.js";
 import { judged } from "./verdict.js";
 
 const CHUNK = { least: 2, first: 8, most: 64, time: 50 }; // directions of a map that are flown at a time, ms that they may take
@@ -37,13 +38,21 @@ export class Local {
   ask(kind, content = {}, number = ++this.number) {
     this.mapping = null; // a map is of the setting that was
     if (kind === "stop") return number;
-    const setting = this.whole(content.setting), message = refused(setting, this.facts);
+    const setting = this.whole(content.setting), message = this.#foreign(setting) || refused(setting, this.facts);
     if (message) queueMicrotask(() => this.told({ kind: "error", number, field: "", message }));
     else if (kind === "fly") {
       this.waiting = { number, setting };
       this.#next();
     } else this.#chunk({ number, setting: { ...setting, pokes: [] }, done: 0, size: CHUNK.first });
     return number;
+  }
+
+  /** What `setting` has of another page, where this one has a single flight to offer; "" if nothing. */
+  #foreign(setting) {
+    const { first, vehicles } = this.offer;
+    if (!first || vehicles) return ""; // whoever has several has chosen this one
+    const found = kindOf(setting) === kindOf(first) ? unknown(setting, this.facts) : kindOf(setting);
+    return found && `setting: expected law, vehicle, plant and gains of this page, got ${found}`;
   }
 
   /** Fly the next directions of a map: the rod at rest there, the rest of the start as it is. */

@@ -4,6 +4,7 @@ import { clamp, dot, norm, unit } from "../numbers.js";
 
 const LONGEST = 600; // s of flight that a page holds
 const LEAST = 1e-3, CLOSE = 1e-4; // as flypend.lab.setting and State take them
+const PLANT = ["base", "lag", "delay", "noise", "wind", "sensors", "defects", "seed"]; // what machine code takes of a plant
 const ORDER = ["x", "x_dot", "R", "omega", "y", "y_dot"];
 
 /** Whether a start is told in numbers, all of them. */
@@ -45,7 +46,8 @@ export function request(setting, facts, seed) {
 }
 
 /** Why a page cannot fly `setting`, which is a readable one (readable.js) with a start in numbers; "" if it can. */
-export function refused({ start, duration, pokes = [] }, { masses, period }) {
+export function refused({ start, duration, pokes = [], plant, vehicle }, facts) {
+  const { masses, period } = facts;
   const lacking = ORDER.find((name) => !start[name]);
   if (lacking) return `start.${lacking}: expected numbers, got nothing`;
   if (norm(start.y) < LEAST) return `start.y: expected a direction, got one of length ${norm(start.y)}`;
@@ -53,7 +55,25 @@ export function refused({ start, duration, pokes = [] }, { masses, period }) {
   if (!(duration >= period)) return `duration: expected at least ${period} s`;
   if (pokes.some(({ on }) => !Object.hasOwn(masses, on))) return `pokes: expected one of ${Object.keys(masses).join(", ")}`;
   if (pokes.some(({ time }, i) => (i ? time <= pokes[i - 1].time : time < 0))) return "pokes: expected increasing times";
-  return duration + (pokes.at(-1)?.time ?? 0) > LONGEST ? `duration: expected at most ${LONGEST} s of flight, pokes included` : "";
+  if (duration + (pokes.at(-1)?.time ?? 0) > LONGEST) return `duration: expected at most ${LONGEST} s of flight, pokes included`;
+  return facts.kind === "ideal" ? "" : beyond(plant, vehicle, facts.delay); // the ideal plant keeps numbers for later
+}
+
+/** Which numbers of a sampled plant are out of range, with delays up to `longest` (s); "" if none is. */
+function beyond({ lag, delay, noise, defects, wind: { gust_on_vehicle, gust_on_bob } = {} } = {}, { rotor_limits: [least, most] = [0, 1] } = {}, longest) {
+  const sizes = { lag, delay, ...noise, ...defects, gust_on_vehicle, gust_on_bob };
+  const negative = Object.keys(sizes).find((name) => sizes[name] < 0);
+  if (negative) return `plant.${negative}: expected at least 0, got ${sizes[negative]}`;
+  if (delay > Math.max(longest, +longest.toPrecision(3))) return `plant.delay: expected at most ${longest} s, got ${delay}`; // a slider rounds
+  return least >= 0 && least < most ? "" : `vehicle.rotor_limits: expected 0 <= least < largest, got ${least}, ${most}`;
+}
+
+/** The first gain or number of a plant that a setting tells and machine code with such `gains` does not take; "" if it takes all. */
+export function unknown({ law, plant }, { gains }) {
+  const gain = Object.keys(law.gains ?? {}).find((name) => !gains.includes(name));
+  if (gain) return `law.gains.${gain}`;
+  const other = plant?.base !== "ideal" && Object.keys(plant ?? {}).find((name) => !PLANT.includes(name));
+  return other ? `plant.${other}` : "";
 }
 
 /** Whether the rows of `R` are an orthonormal, right-handed frame. */

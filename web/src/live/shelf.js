@@ -2,8 +2,7 @@
 
 import { kind } from "../lab/setting.js";
 import { keep, Local } from "./local.js";
-
-const PLANT = ["base", "lag", "delay", "noise", "wind", "sensors", "seed"]; // what machine code takes of a plant
+import { unknown } from "./request.js";
 
 export class Shelf {
   /** `told` is called with every reply to a question that is still asked. */
@@ -22,7 +21,7 @@ export class Shelf {
   /** Take up the machine code for `setting`; returns what it lacks, or "". */
   #open(setting) {
     const name = kind(setting), stored = Object.hasOwn(this.engines, name) && this.engines[name];
-    const lacking = stored ? unknown(setting, stored.engine) : name;
+    const lacking = stored ? untaken(setting, stored.engine) : name;
     const local = lacking ? null : this.opened.get(name) ?? this.#made(stored);
     if (this.local && this.local !== local) this.local.ask("stop");
     if (local) keep(this.opened, name, local);
@@ -42,7 +41,7 @@ export class Shelf {
 
   /** Whether `setting` has numbers that its machine code does not take. */
   rebuilds(setting) {
-    return Boolean(unknown(setting, this.facts));
+    return Boolean(untaken(setting, this.facts));
   }
 
   begin(setting, tick, flown) {
@@ -67,10 +66,4 @@ export class Shelf {
 }
 
 /** The first number of `setting` that machine code with `facts` does not take; "" if it takes all. */
-function unknown({ vehicle, law, plant }, { gains }) {
-  if (vehicle?.rotor_limits) return "vehicle.rotor_limits"; // from which laws take gains
-  const gain = Object.keys(law.gains ?? {}).find((name) => !gains.includes(name));
-  if (gain) return `law.gains.${gain}`;
-  const other = plant?.base !== "ideal" && Object.keys(plant ?? {}).find((name) => !PLANT.includes(name));
-  return other ? `plant.${other}` : "";
-}
+const untaken = (setting, facts) => (setting.vehicle?.rotor_limits ? "vehicle.rotor_limits" : unknown(setting, facts)); // laws take gains from limits

@@ -122,16 +122,17 @@ def call(
     function: jit.Native,
     starts: NDArray[np.float64],
     values: NDArray[np.float64],
-    duration: float,
+    until: float,
     exact: Tolerances,
     moments: Moments,
     out: Flown,
     stop: Word,
+    begin: float = 0.0,
     **more: NDArray[Any] | None,
 ) -> None:
     """Call a compiled ideal `function` for contiguous `starts` (n, 24 or more) and parameter `values` (n, k).
 
-    The runs last `duration`, s, with the tolerances per step and the number of steps of `exact`.
+    The runs last from `begin` to `until`, s, with the tolerances per step and the number of steps of `exact`.
 
     `out` is filled. Once `stop` is set, the call returns at its next step. `more` may be `knots` of a single run, to
     receive the number of accepted steps and four numbers for each: its time, and the drift (3,) before projection; and
@@ -139,7 +140,7 @@ def call(
     """
     given = {
         "starts": starts, "parameters": values, "queue": np.zeros(1, dtype=np.int64), "runs": len(starts),
-        "begin": 0.0, "until": duration, "rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.steps,
+        "begin": begin, "until": until, "rtol": exact.rtol, "atol": exact.absolute, "max_steps": exact.steps,
         "times": moments.kept, "time_count": len(moments.kept) - 1,
         "judge_times": moments.judged, "bins": moments.bins, "bin_count": len(moments.bins), "bin_rate": moments.rate,
         "samples": out.samples, "reductions": out.reductions, "final": out.final, "end": out.end, "status": out.code,

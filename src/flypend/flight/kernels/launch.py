@@ -69,18 +69,21 @@ class Solution:
 
     `knots` (k+1,) are the start time and the ends of the k accepted steps, `drift` (k, 3) is the drift before
     projection. The steps do not depend on the requested times, so all states belong to one solution. `parameters` are
-    the values of the kernel's input gains; default those of its law.
+    the values of the kernel's input gains; default those of its law. The run begins at the time `begin`, s.
     """
 
-    def __init__(self, kernel: Kernel, flight: Flight, parameters: NDArray[np.float64] | None = None) -> None:
+    def __init__(
+        self, kernel: Kernel, flight: Flight, parameters: NDArray[np.float64] | None = None, begin: float = 0.0
+    ) -> None:
         self._function, self._touching = kernel.function, flight.loop.touches
-        self._start, self._limits = np.ascontiguousarray(flight.packed[0]), (flight.duration, flight.tolerances)
+        self._start, self._limits = np.ascontiguousarray(flight.packed[0]), (begin + flight.duration, flight.tolerances)
+        self._begin = begin
         self._values = inputs_of(kernel.loop, None if parameters is None else np.asarray(parameters)[None], 1)
         room = np.empty(1 + 4 * flight.tolerances.steps)
         room[0] = 0
         flown = self._fly(np.zeros(0), room)
         steps = room[1 : 1 + 4 * int(room[0])].reshape(-1, 4)
-        self.knots, self.drift = np.append(0.0, steps[:, 0]), steps[:, 1:].copy()
+        self.knots, self.drift = np.append(begin, steps[:, 0]), steps[:, 1:].copy()
         self._final = flown.final[0]
         self.outcome = outcome_of(kernel.loop, flown.code, flown.end, flown.part, flight.tolerances.steps)
 
@@ -88,7 +91,7 @@ class Solution:
         moments, start = Moments.of(keep_at=times), self._start[None]
         out = Flown.of_size(1, start.size, samples=(len(times), start.size), touching=self._touching)
         given = self._function, start, self._values, *self._limits, moments, out
-        heard([lambda stop: call(*given, stop, knots=room)])
+        heard([lambda stop: call(*given, stop, knots=room, begin=self._begin)])
         return out
 
     def __call__(self, t: ArrayLike) -> NDArray[np.float64]:
@@ -96,7 +99,7 @@ class Solution:
         wanted = np.atleast_1d(np.asarray(t, dtype=float))
         times = distinct(wanted)
         samples: NDArray[np.float64] = self._fly(times).samples[0]
-        samples[times <= 0] = self._start
+        samples[times <= self._begin] = self._start
         samples[times >= self.outcome.time] = self._final
         return samples[np.searchsorted(times, wanted)]
 

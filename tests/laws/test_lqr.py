@@ -169,8 +169,8 @@ def test_it_follows_a_circle_with_the_feedforward():
     run = fp.simulate(HEHN, law, start, 20, rtol=1e-7, plant="ideal")
     error = np.linalg.norm(run.x - run.x_ref, axis=1)[run.t > 15]
     # The lean of the rod is known to (rate² l/g)³ = 2e-4 of itself; a lean that is wrong by δ moves the pivot by about
-    # δ times the ratio of rod to position gain.
-    assert np.max(error) < 0.02
+    # δ times the ratio of rod to position gain: 2e-4 · 0.05 · 44 m.
+    assert np.max(error) < 5e-4
     # Without it (the reference taken to stand still at every instant) the vehicle lags far behind.
     naive = fp.laws.lqr()
     offset = fp.Law(

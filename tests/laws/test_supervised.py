@@ -120,3 +120,10 @@ def test_limits_that_nothing_meets_change_nothing(law, start):
     assert low < free.rotor_forces.min() < free.rotor_forces.max() < high
     run = fp.simulate(VEHICLE, law(), start, 1.0, plant=fp.Ideal(limits=True))
     np.testing.assert_allclose(run.packed, free.packed, rtol=0, atol=1e-6)
+
+
+def test_the_first_law_flies_to_the_reference_that_is_given():
+    there = fp.laws.references.hover((1.0, 0.0, 0.0))
+    law = fp.laws.supervised(there, first=fp.laws.inverted(), level=0.05, yaw_rate=0.15)
+    run = fp.simulate(fp.vehicle("hehn2011"), law, fp.State(y=(0, 0.6, 0.8)), 8, plant=fp.Ideal(limits=True))
+    assert run.signals["certified"][-1] == 1

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flypend import errors
-from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic, norm, scale
+from flypend.geometry import E3, Numbers, Scalar, Vector, apply, cross, dot, is_symbolic, norm, scale, unit
 from flypend.laws.bound import Control
 from flypend.laws.gain import POSITIVE, Gain, check_gravity, document_gains, table
 from flypend.laws.law import Law
@@ -209,10 +209,12 @@ def errors_of(
 def flat_reference(t: Scalar, path: Path, vehicle: Vehicle) -> tuple[Vector, Vector, Vector, Vector, Scalar]:
     """Return pivot position and velocity, rod, thrust axis and thrust with which `vehicle` follows `path` at `t`.
 
-    The thrust vector is F = M (ẍ + g e₃) + m (p̈ + g e₃), with p = x + l y the bob.
+    The thrust vector is F = M (ẍ + g e₃) + m (p̈ + g e₃), with p the bob. The rod points along p̈ + g e₃: the path's own
+    rod is less exact by a factor (rate of the reference)² l/g, and its error moves the pivot far more than the bob.
     """
-    x_ref, p_ref, y_ref = path(t, vehicle, ca.SX.zeros(3))
+    x_ref, p_ref, _ = path(t, vehicle, ca.SX.zeros(3))
     v_ref, a_ref = derivatives(x_ref, t, 2)
-    F = vehicle.M * a_ref + vehicle.m * derivatives(p_ref, t, 2)[-1] + vehicle.weight * E3
+    support = derivatives(p_ref, t, 2)[-1] + vehicle.g * E3
+    F = vehicle.M * (a_ref + vehicle.g * E3) + vehicle.m * support
     f_ref = norm(F)
-    return x_ref, v_ref, y_ref, scale(1 / f_ref, F), f_ref
+    return x_ref, v_ref, unit(support), scale(1 / f_ref, F), f_ref

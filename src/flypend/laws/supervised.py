@@ -9,6 +9,7 @@ law in it that of Theorem D.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import lru_cache, partial
 from types import SimpleNamespace
 from typing import Any
@@ -27,6 +28,7 @@ from flypend.laws.inverted import inverted
 from flypend.laws.lag import LEAD, lead_wrench
 from flypend.laws.law import Law
 from flypend.laws.references import Reference, hover
+from flypend.laws.throw import bob_path
 from flypend.model import State, Vehicle, Wrench
 
 
@@ -73,7 +75,8 @@ def supervised(
         Pivot position (3,), m, as a CasADi function of time, at rest; default that of `first`, or hover at the origin.
         See `laws.references`.
     first : Law, optional
-        A law with e₃ up; default `inverted` about the reference. Its flight computer flies both.
+        A law with e₃ up; default `inverted`. A `reference` moves it there, if it has a path. Its flight computer flies
+        both.
     lag : bool
         Whether rotors lag. The second law is then `almost_global_lag`, with a set of states and rotor forces. The
         commands of the first law then get a `lead`, a further gain: see `laws.lag.lead_wrench`.
@@ -93,6 +96,8 @@ def supervised(
     before = first or inverted(reference)
     if before.e3 != "up" or before.uses_wrench:
         raise InputError("first", "a law with e3 up that does not take the wrench", before.name)
+    if reference is not None and before.path is not None:
+        before = replace(before, reference=reference, path=bob_path(reference))
     followed = reference or before.reference or hover()
     second = almost_global_lag(followed) if lag else almost_global(followed)
     return Law(

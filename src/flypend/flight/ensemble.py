@@ -161,7 +161,7 @@ def simulate_ensemble(
     starts : State
         A batch of states with one leading axis, in the law's frame.
     gains : dict, optional
-        Gains that differ between runs: name to (n,).
+        Gains that differ between runs: name to (n,). Each is checked by itself, not whether it fits the others.
     criterion : Criterion, optional
         Success criterion; default: standing inverted at the reference.
     times : (t,) increasing, optional

@@ -18,7 +18,7 @@ from tests.identification.test_rosbag import TOPICS, flight, write_bag
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)
 SCALE = 0.93
 PLANT = fp.Plant(
-    delay=0.0113, sag=0.05, spin_up=1.2, strength=(0.97, 1.02, 1.03, 0.98), wind=fp.Wind(gust_on_vehicle=0.1),
+    delay=0.0113, sag=0.05, spin_up=1.2, strength=(0.97, 1.02, 1.03, 0.98), wind=fp.Wind(gust_on_vehicle=0.1), air="all",
     noise=fp.Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
 )  # fmt: skip
 FLYING = PLANT.replace(strength=tuple(SCALE * np.array(PLANT.strength)))
@@ -93,6 +93,16 @@ def test_bands_hold_the_truth_and_say_more_than_the_guess(found):
     for name in ("rod_length", "rotor_lag", "delay"):
         low, high = found.bands[name]
         assert high - low < 0.1 * GUESS.rod_length
+
+
+def test_the_air_that_the_guess_knows_is_part_of_the_model(tmp_path):
+    true = fp.vehicle("hehn2011")
+    guess, flown = rehearsal_of(true, duration=12.0, seed=1)
+    write_log(tmp_path / "flight.csv", flown.columns)
+    found = fp.identify(tmp_path / "flight.csv", guess)
+    assert found.vehicle.air.inflow == true.air.inflow
+    values = {"rotor_lag": true.rotor_lag, "rotor_drag": true.air.rotor_drag, "rod_length": true.rod_length}
+    assert not [name for name, value in values.items() if not inside(found, name, value)]
 
 
 def test_a_drag_is_known_no_better_than_the_mass_that_it_slows(found):

@@ -52,7 +52,7 @@ def test_the_step_is_that_of_the_plant(changes):
     known = np.r_[vehicle.rod_length, vehicle.bob_mass, np.diag(vehicle.inertia), vehicle.drag_ratio]
     known = np.r_[known, vehicle.pivot_offset, np.zeros(3)]
     after, *_ = move(s, gusts, np.zeros(LOCAL), forces, 0 * forces, 1e-3, 1.0, known)
-    engine = make_engine(vehicle.replace(rotor_lag=0.0), fp.Plant())
+    engine = make_engine(vehicle.replace(rotor_lag=0.0), fp.Plant(air=("inflow", "lift", "body_drag")))
     engine.reset(s, forces)
     engine.step(forces, 1e-3, gusts)
     assert np.abs(after - engine.packed).max() < 1e-9  # two integrators of order 4, over a millisecond

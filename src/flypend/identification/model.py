@@ -17,6 +17,7 @@ import numpy as np
 from flypend.compile.numeric import as_numpy
 from flypend.geometry import E3, Numbers, Vector, hat, vee
 from flypend.model import State, Vehicle
+from flypend.model.air import AIR, Air
 from flypend.model.altered import Altered
 from flypend.model.dynamics import swing_around
 from flypend.model.state import SIZE
@@ -63,7 +64,7 @@ def machine(vehicle: Vehicle, moving: Numbers) -> Any:
         vehicle, bob_mass=v["bob_mass"], M=vehicle.mass + (1 - share) * v["bob_mass"], m=share * v["bob_mass"],
         l=v["rod_length"] / share, I=principal, I_inv=ca.inv_minor(principal), pivot_offset=v["pivot_offset"],
         drag_ratio=v["drag_ratio"], wind=v["wind"], rubs=False, rod_spin=0.0,
-        air=SimpleNamespace(rotor_drag=v["rotor_drag"], active=lambda: ("rotor_drag",)),
+        air=SimpleNamespace(**{**vars(vehicle.air or Air()), "rotor_drag": v["rotor_drag"]}, active=lambda: AIR),
     )  # fmt: skip
 
 
@@ -74,7 +75,7 @@ def moves(vehicle: Vehicle) -> Callable[..., Any]:
     of a gust, `moving`) → state (24,) and gusts (6,) after, and by errors, `moving` and mean forces (18 (24 + · + n),),
     a matrix by columns.
     """
-    n, plant = len(vehicle.rotor_spins), Plant(air=("rotor_drag",))
+    n, plant = len(vehicle.rotor_spins), Plant(air=AIR)
     before, gusts, mean, change = (ca.SX.sym(a, k) for a, k in (("s", SIZE), ("g", GUST), ("f", n), ("c", n)))
     h, decay, moving, error = ca.SX.sym("h"), ca.SX.sym("d"), ca.SX.sym("m", sizes(MOVING)), ca.SX.sym("e", LOCAL)
     correction, made = ca.SX.sym("k", LOCAL), machine(vehicle, moving)
@@ -108,7 +109,7 @@ def reads(vehicle: Vehicle, marker: Vector) -> Callable[..., Any]:
     s = State.symbolic(shift(packed, error[:ERROR]))
     wind = gusts + error[ERROR:] + ca.vertcat(made.wind, ca.SX(4, 1))
     wrench = ca.mtimes(made.mixing(), forces)
-    rates = State.symbolic(rates_under(s.packed(), forces, wrench, wind, made, Plant(air=("rotor_drag",))))
+    rates = State.symbolic(rates_under(s.packed(), forces, wrench, wind, made, Plant(air=AIR)))
     since = age + parts["latency"]
     R = s.R @ rotation_by(-since * s.omega)
     position = s.x - since * s.x_dot + since**2 / 2 * rates.x_dot + R @ ca.DM(marker)

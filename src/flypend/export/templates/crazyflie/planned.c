@@ -1,5 +1,5 @@
 
-/* A swing-up follows a plan, as long as rod and pivot are near it; then, and from anywhere else, the law flies. The plan
+/* A swing-up follows a plan, as long as rod and pivot are near it; then, and from elsewhere, the law flies. The plan
  * begins level, heading along x: begun 10 degrees from there, it stays within centimetres; from 15 on it may fall. */
 #define PLANNED_TRACE 2.9696f /* 1 + 2 cos 10 deg, of the attitude */
 static bool follows_plan;

@@ -56,6 +56,14 @@ def test_it_compiles_without_a_warning_and_gives_the_numbers_of_python(exports, 
     assert "100 periods" in said
 
 
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize(("flag", "compiles"), [("-O2", True), ("-ffast-math", False), ("-ffinite-math-only", False)])
+def test_flags_that_drop_the_checks_for_nan_do_not_compile(exports, compiler, flag, compiles):
+    said = run([compiler, "-fsyntax-only", flag, "flypend_law.c"], exports("corrected", "float"), check=False)
+    assert (said.returncode == 0) == compiles
+    assert compiles or "-ffinite-math-only let a compiler" in said.stderr
+
+
 def test_no_vector_lies_so_near_an_exceptional_set_that_rounding_decides(tmp_path):
     fp.export_c(fp.laws.almost_global(), fp.vehicle("hummingbird"), tmp_path, precision="float", check=False)
     assert "100 vectors" in run([str(build(tmp_path, ("flypend_law.c", "flypend_test.c"), "test"))])

@@ -190,6 +190,16 @@ def test_six_rotors_a_full_inertia_matrix_and_a_rod_with_an_extent():
         assert _apart(rotors, wanted.rotors, 1.0) < 1e-12
 
 
+@pytest.mark.parametrize("entries", [(3e-3, 4e-3, 6e-3, 5.0, 0, 0), (3e-3, 4e-3, 6e-3, 2e-3, 3e-3, -3e-3)])
+def test_an_inertia_matrix_that_is_indefinite_is_refused(entries):
+    vehicle = hexarotor(VEHICLE).replace(rod_inertia=1e-2)
+    code, wrench = library(fp.laws.inverted().bind(vehicle), vehicle, "double"), np.empty(4)
+    params, place = code.params.copy(), code.made.params.place("inertia")
+    assert code.call("flypend_unmix", np.ones(6), params, wrench) == OK
+    params[place] = entries
+    assert code.call("flypend_unmix", np.ones(6), params, wrench) == PARAMS
+
+
 def test_mixing_keeps_limits_and_priority_for_any_wrench():
     thrust, moment = ca.SX.sym("T"), ca.SX.sym("tau", 3)
     python = ca.Function("mix", [thrust, moment], [allocate(thrust, moment, VEHICLE)])

@@ -258,7 +258,8 @@ def test_a_bob_that_is_no_number_and_another_array_are_not_taken(world):
 @pytest.mark.parametrize(
     ("name", "value"),
     [
-        ("FPD_MASS", 0.0), ("FPD_ROD_LEN", np.nan), ("FPD_BOB_DELAY", 101.0), ("FPD_HEIGHT", 0.1),
+        ("FPD_MASS", 0.0), ("FPD_MASS", 50 * VEHICLE.M), ("FPD_ROD_LEN", np.nan), ("FPD_BOB_DELAY", 101.0),
+        ("FPD_HEIGHT", 0.1),
         ("FPD_FORCE", 0.9 * VEHICLE.rotor_limits[1]), ("IMU_GYRO_RATEMAX", 250), ("CA_ROTOR_COUNT", 6),
         ("CA_ROTOR1_PX", 1.0), ("CA_ROTOR2_KM", 0.05 * VEHICLE.rotor_spins[0]),
     ],

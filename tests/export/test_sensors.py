@@ -120,6 +120,10 @@ def test_the_folder_has_the_two_files_and_only_with_sensors(tmp_path):
     assert names == {"flypend_sensors.h", "flypend_sensors.c"}
     law = "flypend_law.c"
     assert (tmp_path / "with" / law).read_text() == (tmp_path / "without" / law).read_text()
+    (tmp_path / "with" / "flypend_sensors.h").write_text("/* my own */")
+    fp.export_c(LAW, VEHICLE, tmp_path / "with", check=False)
+    left = {file.name for file in (tmp_path / "with").iterdir()} - {f.name for f in (tmp_path / "without").iterdir()}
+    assert left == {"flypend_sensors.h"}
     with pytest.raises(fp.InputError, match="sensors"):
         fp.export_c(LAW, VEHICLE, tmp_path / "wrong", sensors="onbord", check=False)
 

@@ -113,8 +113,8 @@ def export_app(
         the estimator of `export_c` for these sensors. Default "perfect": the law flies on one observer of the pose and
         one of the rod.
     planned : bool
-        For a Crazyflie: plan a swing-up of smallest excursion from rest with the rod hanging. The law takes over where
-        the plan ends, or once rod or pivot are too far from it.
+        For a Crazyflie: plan a swing-up of smallest excursion from rest with the rod hanging, heading along x. The law
+        takes over where the plan ends, or once rod or pivot are too far from it, and flies from other headings.
 
     Returns
     -------
@@ -217,7 +217,8 @@ def _computer(made: Interface, rate: float, planned: bool) -> dict[str, str]:
     if planned:
         units = [*units, "flypend_plan"]
         beside = (
-            "- **That the rod hangs at rest**: then a swing-up follows a plan; else, or thrown off it, the law flies.\n"
+            "- **That the rod hangs at rest**, and the vehicle is level and heads along x, to 10°: then a swing-up\n"
+            "  follows a plan; else, or thrown off it, the law flies.\n"
         )
     parts = ["measured" if made.sensing is None else "sensed", *["planned"] * planned]
     return calls | {

@@ -114,7 +114,6 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
     programs = made.all_programs()
     texts = [function(program, precision) for program in programs.values()]
     texts += [routine_function(made.board, precision), routine_function(made.unmeasured, precision)]
-    inertia = made.params.place("inertia").start
     places = {f"place_{field.name}": str(place.start) for field, place in made.params.places()}
     law = ("s", "s + FLYPEND_STATE", "r", "gains_numbers(gains)", "p")
     sizes = {name: scratch(program).size for name, program in programs.items()}
@@ -148,10 +147,24 @@ def functions(made: Interface, precision: Precision) -> dict[str, str]:
         },
         "scratch": str(largest),
         "law_scratch": str(max(1, sizes["law"], *(sizes[name] for name in SAFE))),
-        "positive_inertia": " && ".join(f"(p[{i}] > 0)" for i in range(inertia, inertia + 3)),
+        "positive_inertia": _positive_inertia(made.params.place("inertia")),
         "largest": "DBL_MAX" if precision == "double" else "FLT_MAX",
         **places,
     }
+
+
+def _positive_inertia(place: slice) -> str:
+    """A C condition: the inertia matrix at this `place` of the parameters is positive definite (Sylvester)."""
+    xx, yy, zz, *off = (f"p[{i}]" for i in range(place.start, place.stop))
+    minors = [xx, yy, zz]
+    if off:
+        xy, xz, yz = off
+        minors += [
+            f"{xx} * {yy} - {xy} * {xy}",
+            f"{xx} * ({yy} * {zz} - {yz} * {yz}) - {xy} * ({xy} * {zz} - {yz} * {xz})"
+            f" + {xz} * ({xy} * {yz} - {yy} * {xz})",
+        ]
+    return " && ".join(f"({minor} > 0)" for minor in minors)
 
 
 def sensor_values(made: Interface, sensing: Sensing, precision: Precision) -> dict[str, Any]:

@@ -69,7 +69,8 @@ def export_c(
     vehicle : Vehicle
         What it flies.
     out : str or Path
-        Folder that receives the files. It may exist, with files of the same names if an export wrote them.
+        Folder that receives the files. It may exist, with files of the same names if an export wrote them. What an
+        earlier one wrote for sensors is removed where this has none.
     precision : "double" or "float"
         Type of every number.
     rate : float
@@ -110,6 +111,9 @@ def export_c(
         if found.poor:
             warnings.warn(f"the exported law flies {vehicle.name} poorly: {found.poor}", stacklevel=2)
     write_texts(out, texts)
+    for path in (Path(out) / name for name in WITH_SENSORS if name not in texts):
+        if path.is_file() and "by flypend " in path.read_text(encoding="utf-8", errors="replace").partition("\n")[0]:
+            path.unlink()  # of an earlier export, with the law of then
     return Path(out)
 
 

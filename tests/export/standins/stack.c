@@ -18,7 +18,7 @@ int main(void);
 void reset(void);
 static uint32_t ticks = 1000;
 static unsigned char packet[13];
-static const float posed[8] = {0, 0, 0, 4, 0.98f, 0, 0.2f, 0}; /* from 1 on x, y, z of poses, and quaternion w, x, y, z */
+static const float posed[8] = {0, 0, 0, 4, 0.998f, 0, 0.06f, 0}; /* from 1 on x, y, z and quaternion; a plan begins */
 static void *back[5];
 
 __attribute__((section(".vectors"), used)) static void *const vectors[2] = {&_stack_top, (void *)reset};
@@ -126,7 +126,7 @@ static void print(const char *text, uint32_t number)
 
 int main(void)
 {
-    state_t state = {{0, 0, 0, 0}, {0, 0.2f, 0, 0.98f}, {0, 0, 0, 4}, {0, 0.1f, 0, 0}};
+    state_t state = {{0, 0, 0, 0}, {0, 0.06f, 0, 0.998f}, {0, 0, 0, 4}, {0, 0.1f, 0, 0}};
     setpoint_t setpoint = {.position = {0, 0, 0, 4}};
     const uint8_t *flies = standin_log_flypend[0].address;
     uint32_t most = 0, flown = 0;

@@ -104,8 +104,9 @@ flypend_status flypend_board_restart(flypend_board *board, const flypend_gains *
  * Returns OK, NULL, NOT_FINITE, NOT_BEGUN. After anything but FLYPEND_OK the board is as it was. */
 flypend_status flypend_board_set_gains(flypend_board *board, const flypend_gains *gains);
 
-/* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for what was measured now. It takes a few
- * hundred bytes of stack, and works in the board's `scratch`.
+/* The flight computer, once every FLYPEND_PERIOD: rotor forces to command now for what was measured now. It works
+ * in the board's `scratch`; beside that it takes hundreds of bytes of stack, or in double precision thousands: the
+ * table in flypend's docs/export/export.md tells them law by law.
  *
  * `reference` is the path of the pivot with its derivatives at the time of the measurement; it may be null if
  * FLYPEND_FOLLOWS is 0.

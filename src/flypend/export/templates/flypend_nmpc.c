@@ -2,8 +2,8 @@
 #include "flypend_nmpc.h"
 #include <math.h>
 
-#ifdef __FAST_MATH__
-#error "-ffast-math lets a compiler assume that no number is NaN, and drops the checks below"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-ffast-math and -ffinite-math-only let a compiler assume that no number is NaN, and drop the checks below"
 #endif
 
 enum {

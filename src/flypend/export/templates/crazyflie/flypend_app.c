@@ -493,7 +493,9 @@ static void take(void)
     next.mass = asked.mass;
     next.bob_mass = asked.bob_mass;
     next.rod_length = asked.rod_length;
-    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK) && (asked.late >= 0) && (asked.late <= $latest)
+    const bool good = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK)
+        && (FLYPEND_ROTORS * next.rotor_largest > (next.mass + next.bob_mass) * next.gravity)
+        && (asked.late >= 0) && (asked.late <= $latest)
         && (asked.height >= 2 * MISSED) && (asked.height <= 1000);
     taskENTER_CRITICAL();
     if (good && (flies != LAW)) {

@@ -1,11 +1,14 @@
 
-/* A swing-up follows a plan, as long as rod and pivot are near it; then, and from anywhere else, the law flies. */
+/* A swing-up follows a plan, as long as rod and pivot are near it; then, and from elsewhere, the law flies. The plan
+ * begins level, heading along x: begun 10 degrees from there, it stays within centimetres; from 15 on it may fall. */
+#define PLANNED_TRACE 2.9696f /* 1 + 2 cos 10 deg, of the attitude */
 static bool follows_plan;
 static float planned_time; /* s */
 
 static flypend_status begin_planned(const sensorData_t *sensors, const flypend_rotors *rotors)
 {
-    follows_plan = true;
+    const float *R = pose + POSE_R;
+    follows_plan = R[0] + R[4] + R[8] > PLANNED_TRACE;
     planned_time = 0;
     return begin_computer(sensors, rotors);
 }

@@ -144,6 +144,7 @@ void Flypend::read_parameters()
 	const float delay = 1e-3f * _param_bob_delay.get();
 	const float height = _param_height.get();
 	_parameters_hold = (flypend_unmix(&none, &next, &wrench) == FLYPEND_OK)
+			   && (FLYPEND_ROTORS * next.rotor_largest > (next.mass + next.bob_mass) * next.gravity)
 			   && (force >= 0.9999f * next.rotor_largest) && isfinite(force) && (delay >= 0) && (delay <= 0.1f)
 			   && (height >= 2 * MISSED) && isfinite(height);
 

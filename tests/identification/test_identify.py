@@ -276,6 +276,8 @@ def test_a_log_that_begins_on_the_ground_is_refused_as_such(log):
     [
         ("rod", -1, "column rz: expected a hanging rod"),
         ("force", 1 / 9.81, "columns ax, ay, az: expected about 9.81 m/s² in hover"),
+        ("gyro", 180 / np.pi, r"column gx: expected the rate at which .*, rad/s, got 5\d(\.\d)? times that"),
+        ("gyro", np.array([1, -1, -1]), "column gy: .*, got -[01].* times that"),  # front-right-down
         ("command", 1 / TRUE.rotor_limits[1], r"take-off on \(or command='pwm'\)"),
     ],
 )

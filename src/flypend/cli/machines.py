@@ -108,7 +108,8 @@ def identify(
 
     --vehicle is the guess. Its mass counts as weighed; the positions, spins and limits of its rotors are taken as
     exact. The columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry,
-    rz, vbat. For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag.
+    rz, vbat. For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag. If the search has not converged, the
+    file begins with a comment that says so.
     """
     from flypend.files.toml import toml_text
     from flypend.identification.manoeuvre import rehearsal_of, write_log
@@ -127,7 +128,10 @@ def identify(
             refuse_idle("seed", "duration", why="without --rehearse")
         found = fp.identify(log, machine, marker=marker, command=command, mass_error=mass_error, progress=tell)
     with whole_file(out, (".toml",)) as partial:
-        partial.write_text(toml_text(found.vehicle.to_dict()), encoding="utf-8")
+        doubt = (
+            "" if found.converged else "# The search has NOT converged: numbers may be off by more than their bands.\n"
+        )
+        partial.write_text(doubt + toml_text(found.vehicle.to_dict()), encoding="utf-8")
     console.print(found.report(), markup=False, highlight=False, soft_wrap=True)
     if rehearsal.asked:
         console.print(f"The search began from {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")

@@ -147,7 +147,10 @@ class Flights:
         "Sensor suite, or a TOML file of one; also flies all errors of a laboratory at once.", default="perfect"
     )
     floor: float | None = option(FLOOR_HELP, metavar="M")
-    runs: int | None = option("Random starts; default 1000, or 24 if the law is slow.", type=click.IntRange(min=1))
+    runs: int | None = option(
+        "Random starts of a task, and of all errors at once; default 1000 and 384, fewer if the law is slow.",
+        type=click.IntRange(min=1),
+    )
     seed: int = option("Seed of the random starts.", type=click.IntRange(min=0), default=1)
     advise: bool = option("Name the best law, by default of inverted and learned; if none will do, what to change.")
     bands: bool = option(f"Also f{BANDS_HELP[1:]}")
@@ -197,7 +200,7 @@ def check(
             if trial and checks[name].tasks:
                 trials[name] = fp.trial(machine, each, plant=world, seed=seed, progress=tell)
             if measured and checks[name].tasks:
-                joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
+                joints[name] = joint(machine, each, plant=world, runs=own.runs, seed=seed, progress=tell)
         advice = advise(machine, checks, plant=world, seed=seed, progress=tell) if own.advise else None
     settings = {"vehicle": vehicle, "laws": list(laws), "plant": asked, "seed": seed}
     write_check(checks, trials, settings, out, figures=figures, joints=joints, advice=advice)

@@ -1,6 +1,7 @@
 """`flypend check`: what it writes, what it refuses, and what its exit code says."""
 
 import json
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -140,6 +141,18 @@ def test_run_warns_of_a_vehicle_that_is_too_slow_and_flies_it(call, tmp_path):
     run["plant"] = "rotors"
     (tmp_path / "late.toml").write_text(toml_text(run), encoding="utf-8")
     assert "warning" not in call("run", "late.toml", "--no-figures")[2]
+
+
+def test_runs_counts_those_under_all_errors_too(call, monkeypatch):
+    room, asked = import_module("flypend.studies.joint"), []
+
+    def joint(*_, runs=None, **__):
+        asked.append(runs)
+        return room.Joint({}, 1, {1.0: room.Count(1, 1)})
+
+    monkeypatch.setattr(room, "joint", joint)
+    assert call("check", "hehn2011", "--sensors", "mocap", *QUICK)[0] == 0
+    assert asked == [16]
 
 
 def test_sensors_are_read_from_a_file(tmp_path):

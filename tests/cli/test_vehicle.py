@@ -1,5 +1,7 @@
 """flypend vehicle new: a file that every command takes, from parts with units; nonsense is one line."""
 
+from importlib import import_module
+
 import pytest
 
 import flypend as fp
@@ -62,3 +64,17 @@ def test_a_rehearsal_overwrites_no_flight(call, tmp_path):
     code, _, told = call("identify", "flight.csv", "--rehearse", "--duration", "10.5")
     assert (code, told) == (2, "flypend: flight.csv: expected no file yet, as --rehearse writes it, got one\n")
     assert (tmp_path / "flight.csv").read_text(encoding="utf-8") == "a minute of a real flight"
+
+
+@pytest.mark.parametrize("converged", [False, True])
+def test_a_search_that_has_not_converged_says_so_in_its_file(call, tmp_path, monkeypatch, converged):
+    room = import_module("flypend.identification.fit")  # `fit` of the room is the function
+    monkeypatch.setattr(room, "PASSES", 1)
+    monkeypatch.setattr(room, "UNGATED", -1)  # so that one pass can converge
+    monkeypatch.setattr(room, "DONE", 1e9 * converged)
+    code, told, _ = call("identify", "flight.csv", "--rehearse", "--duration", "10.5", "-o", "mine.toml")
+    assert code == 0
+    assert ("NOT converged" in told) is not converged
+    text = (tmp_path / "mine.toml").read_text(encoding="utf-8")
+    assert text.startswith("# The search has NOT converged") is not converged
+    assert fp.vehicle(tmp_path / "mine.toml").bands

@@ -286,6 +286,9 @@ def test_a_log_that_begins_on_the_ground_is_refused_as_such(log):
     [
         ("rod", -1, "column rz: expected a hanging rod"),
         ("force", 1 / 9.81, "columns ax, ay, az: expected about 9.81 m/s² in hover"),
+        ("position", 1000, r"columns x, y, z: expected positions in m \(not mm\)"),
+        ("gyro", 180 / np.pi, r"column gx: expected the rate at which .*, rad/s, got 5\d(\.\d)? times that"),
+        ("gyro", np.array([1, -1, -1]), "column gy: .*, got -[01].* times that"),  # front-right-down
         ("command", 1 / TRUE.rotor_limits[1], r"take-off on \(or command='pwm'\)"),
     ],
 )
@@ -308,6 +311,7 @@ def test_a_bob_at_the_end_of_the_guess_stays_there(found, length):
     ("keywords", "said"),
     [
         ({"marker": (1, 2)}, "marker"),
+        ({"marker": (0, 0, 30)}, r"marker: expected a place on the machine, within 0\.85 m, got"),
         ({"command": "volts"}, "newton, pwm"),
         ({"mass_error": -1}, "mass_error"),
         ({"command": "pwm"}, "fractions up to 1"),

@@ -108,7 +108,8 @@ def identify(
 
     --vehicle is the guess. Its mass counts as weighed; the positions, spins and limits of its rotors are taken as
     exact. The columns of a CSV are t, x, y, z, qw, qx, qy, qz, gx, gy, gz, u1 to u4, and optionally ax, ay, az, rx, ry,
-    rz, vbat. For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag.
+    rz, vbat. For PX4's ULog, add --command pwm. An MCAP file is a ROS 2 bag. If the search has not converged, the
+    file begins with a comment that says so.
     """
     from flypend.files.toml import toml_text
     from flypend.identification.manoeuvre import rehearsal_of, write_log
@@ -127,7 +128,10 @@ def identify(
             refuse_idle("seed", "duration", why="without --rehearse")
         found = fp.identify(log, machine, marker=marker, command=command, mass_error=mass_error, progress=tell)
     with whole_file(out, (".toml",)) as partial:
-        partial.write_text(toml_text(found.vehicle.to_dict()), encoding="utf-8")
+        doubt = (
+            "" if found.converged else "# The search has NOT converged: numbers may be off by more than their bands.\n"
+        )
+        partial.write_text(doubt + toml_text(found.vehicle.to_dict()), encoding="utf-8")
     console.print(found.report(), markup=False, highlight=False, soft_wrap=True)
     if rehearsal.asked:
         console.print(f"The search began from {machine.name} with numbers wrong on purpose; the log is {bold(log)}.")
@@ -143,7 +147,10 @@ class Flights:
         "Sensor suite, or a TOML file of one; also flies all errors of a laboratory at once.", default="perfect"
     )
     floor: float | None = option(FLOOR_HELP, metavar="M")
-    runs: int | None = option("Random starts; default 1000, or 24 if the law is slow.", type=click.IntRange(min=1))
+    runs: int | None = option(
+        "Random starts of a task, and of all errors at once; default 1000 and 384, fewer if the law is slow.",
+        type=click.IntRange(min=1),
+    )
     seed: int = option("Seed of the random starts.", type=click.IntRange(min=0), default=1)
     advise: bool = option("Name the best law, by default of inverted and learned; if none will do, what to change.")
     bands: bool = option(f"Also f{BANDS_HELP[1:]}")
@@ -193,7 +200,7 @@ def check(
             if trial and checks[name].tasks:
                 trials[name] = fp.trial(machine, each, plant=world, seed=seed, progress=tell)
             if measured and checks[name].tasks:
-                joints[name] = joint(machine, each, plant=world, seed=seed, progress=tell)
+                joints[name] = joint(machine, each, plant=world, runs=own.runs, seed=seed, progress=tell)
         advice = advise(machine, checks, plant=world, seed=seed, progress=tell) if own.advise else None
     settings = {"vehicle": vehicle, "laws": list(laws), "plant": asked, "seed": seed}
     write_check(checks, trials, settings, out, figures=figures, joints=joints, advice=advice)

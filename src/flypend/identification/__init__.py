@@ -10,6 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
+import numpy as np
+
 from flypend import errors
 from flypend.geometry import Vector
 from flypend.identification.fit import fit
@@ -21,6 +23,7 @@ __all__ = ["Identified", "Log", "identify", "read_log"]
 
 Command = Literal["newton", "pwm"]
 MASS_ERROR = 0.005  # of a kitchen scale
+MAST = 5  # times the distance of the farthest rotor, within which a machine carries its marker
 
 
 @errors.named_arguments
@@ -53,9 +56,13 @@ def identify(
     Raises
     ------
     InputError
-        If the file is not such a log, has another number of rotors than the vehicle, or its fractions exceed 1.
+        If the file is not such a log, its units or signs are others, it has another number of rotors than the vehicle,
+        or its fractions exceed 1; or if the marker is not on the machine.
     """
     place = errors.array("marker", marker, (3,))
+    reach = MAST * float(np.linalg.norm(vehicle.rotor_positions, axis=1).max())
+    if np.linalg.norm(place) > reach:
+        raise errors.InputError("marker", f"a place on the machine, within {reach:.2g} m", f"{place.tolist()}")
     pwm = errors.one_of("command", command, ("newton", "pwm")) == "pwm"
     errors.number("mass_error", mass_error, at_least=0, at_most=0.5)
     flown, n = read_log(log), len(vehicle.rotor_spins)

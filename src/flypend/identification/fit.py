@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Vector, vee
 from flypend.identification.filtering import GUST_TIME, Noises, Pass, Programs, run_filter
-from flypend.identification.log import Log, grid_step, to_grid
+from flypend.identification.log import GYRO, Log, grid_step, to_grid
 from flypend.identification.model import CHANNELS, MOVING, READING, moves, places, reads, sizes, split
 from flypend.identification.rotors import Forces, patterns, rotor_forces, rotor_slopes, rotor_table
 from flypend.model import Vehicle
@@ -36,6 +36,9 @@ ON_BOB = 4.0  # gusts on the bob over those of its share in the mass, where the 
 WILD = 100  # of those of readings, beyond which one among others is left out; a fifth of that of what 5 % exceed
 LOST = 1e3  # standard deviations of a prediction error that only something else than the flight explains
 AT_REST = 0.1  # m, within which a position stays for half a second; in a fall with half the thrust it moves by 0.6 m
+SWAY_TIME = 0.5  # s, over which noise of a position, even of 0.5 m, accelerates it by less than g
+# s over which attitude and gyro are compared, longer than poses are late, and their correlation that tells units.
+TURN, ALIKE = 0.2, 0.7
 QUIETEST = 1e-4  # of a variance, over that with which the search begins
 # Standard deviation of a guess: of its logarithm, for what is positive and of unknown size ...
 RATIOS = {
@@ -147,6 +150,8 @@ def fit(log: Log, vehicle: Vehicle, marker: Vector, pwm: bool, progress: Progres
     check_in_air(log, vehicle, pwm)
     log = drop_wild(log)
     check_hangs(log, vehicle)
+    check_moves(log, vehicle)
+    check_turns(log)
     search = search_from(vehicle, pwm, bool(np.isfinite(log.force).any()))
     programs = Programs(moves(vehicle), reads(vehicle, marker))
     first = noises = first_noises(vehicle, log)
@@ -222,6 +227,36 @@ def check_hangs(log: Log, vehicle: Vehicle) -> None:
     if len(felt) and not vehicle.gravity / 2 < (usual := float(np.median(felt))) < 2 * vehicle.gravity:
         wanted = f"about {vehicle.gravity:.3g} m/s² in hover (not g, and gravity not subtracted)"
         raise InputError(f"{log.name}, columns ax, ay, az", wanted, f"{usual:.3g}")
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of readings far too large, which `_lost` names
+def check_moves(log: Log, vehicle: Vehicle) -> None:
+    """Raise InputError if positions of `log` accelerate as only those in another unit do."""
+    known = np.isfinite(log.position).all(axis=1)
+    t, position = log.t[known], log.position[known]
+    before, after = (np.column_stack([np.interp(t + s, t, one) for one in position.T]) for s in (-SWAY_TIME, SWAY_TIME))
+    usual = float(np.median(np.linalg.norm(after - 2 * position + before, axis=1))) / SWAY_TIME**2
+    if usual > vehicle.gravity:
+        wanted = "positions in m (not mm), which accelerate by less than g"
+        raise InputError(f"{log.name}, columns x, y, z", wanted, f"{usual:.3g} m/s²")
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def check_turns(log: Log) -> None:
+    """Raise InputError if an axis of the gyro of `log` turns as the attitude does, but in another unit or sense."""
+    known, poses = np.isfinite(log.gyro).all(axis=1), np.isfinite(log.rotation).all(axis=(1, 2))
+    t, rotation = log.t[poses], log.rotation[poses]
+    later = np.minimum(np.searchsorted(t, t + TURN), len(t) - 1)
+    turned = vee(np.swapaxes(rotation, 1, 2) @ rotation[later])
+    angles = np.cumsum(log.gyro[known] * np.gradient(log.t[known])[:, None], axis=0)
+    angle = np.column_stack([np.interp(t, log.t[known], one) for one in angles.T])
+    seen, felt = (one - np.median(one, axis=0) for one in (turned, angle[later] - angle))  # of a gyro with a bias
+    for k, name in enumerate(GYRO):
+        a, b = np.linalg.norm(seen[:, k]), np.linalg.norm(felt[:, k])
+        alike = seen[:, k] @ felt[:, k] / max(a * b, 1e-300)
+        if abs(alike) > ALIKE and not 0.5 < (ratio := float(np.sign(alike) * b / a)) < 2:
+            wanted = "the rate at which qw, qx, qy, qz turn body to world, rad/s"
+            raise InputError(f"{log.name}, column {name}", wanted, f"{ratio:.3g} times that")
 
 
 def _lost(begun: Pass, log: Log) -> InputError:

@@ -89,11 +89,16 @@ class Identified:
                 colour = "" if abs(correlation) < WHITE else "  coloured: something is not in the model"
                 lines.append(f"{name:16s} {rms:12.3g} {ratio:10.2f} {correlation:10.2f}{colour}")
         asked = dict.fromkeys(MORE[name] for name in MORE if FIELDS.get(name, name) in self.untold)
-        lines += ["", f"{fit.passes} passes of the filter, {'converged' if fit.converged else 'NOT converged'}"]
+        lines += ["", f"{fit.passes} passes of the filter, {'converged' if self.converged else 'NOT converged'}"]
         if fit.last.refused:
             lines.append(f"{fit.last.refused} readings left out, as they are far from their predictions")
         lines += [f"to tell more: {one}" for one in asked]
         return "\n".join(lines) + "\n"
+
+    @property
+    def converged(self) -> bool:
+        """Whether the search ended; if not, numbers may be off by more than their bands."""
+        return self._fit.converged
 
     @property
     def torque_over_inertia(self) -> tuple[float, float]:

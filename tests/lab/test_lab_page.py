@@ -202,6 +202,29 @@ def test_a_flight_goes_on_in_the_laboratory(visit):
     expect_flight(page)
 
 
+def test_a_flight_goes_on_when_the_connection_is_back(visit):
+    """With the machine code that the page has: it asks for no other, and no worker is left behind."""
+    page = visit()
+    able(page)
+    page.evaluate("""() => {
+        const { send } = WebSocket.prototype;
+        WebSocket.prototype.send = function (text) {
+            window.socket = this;
+            window.asked?.push(JSON.parse(text).kind);
+            send.call(this, text);
+        };
+    }""")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.evaluate("window.asked = [], socket.close()")
+    until(page, "() => asked.length > 0")
+    page.wait_for_timeout(100)  # all is asked at once
+    assert page.evaluate("asked") == ["fly"]
+    tick = page.evaluate("flypend.live().tick")
+    until(page, "tick => flypend.live().tick > tick + 100", tick)
+    assert len(page.workers) == 1
+
+
 @pytest.mark.slow  # test_lab.py flies that law, test_live_page.py its page, and the tests above poke others
 def test_the_learned_law_is_flown_poked_and_goes_on(visit):
     """Its network takes longer to compile than any other law: what is compiled here is at hand for the server."""

@@ -62,6 +62,8 @@ export class Hybrid {
 
   #reply(reply) {
     if (reply.kind === "engine") {
+      const { last } = this.link;
+      if (reply.number === last.get("engine")?.number) last.delete("engine"); // not asked for again: it may be in use by then
       keep(this.engines, reply.key, reply.engine && this.#made(reply));
       this.#name();
       this.told({ kind: "able" });

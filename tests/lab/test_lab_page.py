@@ -202,6 +202,32 @@ def test_a_flight_goes_on_in_the_laboratory(visit):
     expect_flight(page)
 
 
+def test_what_is_reset_or_taken_back_in_a_live_flight_is_shown_as_it_flies(visit):
+    """The sliders stand where they do once the server has flown the setting."""
+    plant = {"base": "rotors", "lag": 0.08, "wind": {"on_vehicle": [1.0, 0, 0]}}
+    law = {"name": "inverted", "gains": {"rod_damping": 1.5}}
+    page = visit("#" + json.dumps(OFFER["first"] | {"law": law, "plant": plant}))
+    able(page)
+    places = "() => [...document.querySelectorAll('.panel .slider output')].map((output) => output.textContent)"
+    first = page.evaluate(places)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.locator(".has-gains .reset").click()
+    page.locator(".has-plant .reset").click()
+    assert page.evaluate("flypend.live().on")
+    live = page.evaluate(places)
+    page.locator(".go").click()
+    shown(page)
+    assert live == page.evaluate(places) != first
+    page.keyboard.press("Control+z")
+    shown(page)
+    able(page)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().on")
+    page.keyboard.press("Control+z")
+    assert page.evaluate(places) == first
+
+
 def test_a_flight_goes_on_when_the_connection_is_back(visit):
     """With the machine code that the page has: it asks for no other, and no worker is left behind."""
     page = visit()

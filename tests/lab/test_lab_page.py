@@ -534,6 +534,26 @@ def test_the_map_shows_the_way_of_the_rod_against_gravity(visit, chapter):
         np.testing.assert_allclose(mine, upright, atol=2e-5)
 
 
+def test_a_map_keeps_its_points_when_the_connection_is_back(visit):
+    """It is asked for again, from its first direction; each is counted once."""
+    page = visit("#" + json.dumps(setting_for_map()))
+    page.evaluate("""() => {
+        const { send } = WebSocket.prototype;
+        window.told = 0;
+        WebSocket.prototype.send = function (text) {
+            if (window.socket !== this) this.addEventListener("message", ({ data }) => told += data.includes('"map"'));
+            window.socket = this;
+            send.call(this, text);
+        };
+    }""")
+    page.get_by_role("button", name="Region of attraction").click()
+    until(page, "() => told > 0")
+    page.evaluate("window.told = 0, socket.close()")
+    until(page, "() => told > 1")
+    points = page.evaluate("flypend.map().points")
+    assert len({tuple(point["y"]) for point in points}) == len(points)
+
+
 def setting_for_map():
     return {
         "vehicle": {"base": "hehn2011"}, "law": {"name": "lqr", "gains": {}}, "plant": {"base": "ideal"},

@@ -30,7 +30,7 @@ from flypend.flight.simulate import Signals
 from flypend.flight.simulate import fly as fly_request
 from flypend.flight.verdict import goal, verdict
 from flypend.geometry import cross, dot
-from flypend.lab import answers
+from flypend.lab import answers, flying
 from flypend.lab.answers import answer, engine_of
 from flypend.lab.controls import figures, offer, sliders
 from flypend.lab.export import python, toml
@@ -562,6 +562,20 @@ def test_a_map_is_made_of_the_flights():
         assert told["good"] == good[i]
         if good[i]:
             assert told["settling"] == pytest.approx(chunk["settling"][i], abs=0.021)
+
+
+def test_a_map_with_noise_is_one_whatever_its_chunks(monkeypatch):
+    """A direction has a seed of its own, as a run of an ensemble has; how many make a chunk is a matter of time."""
+    noisy = setting_of(asked(plant={"base": "rotors", "noise": {"y_dot": 0.05}}, duration=5.0))
+    monkeypatch.setitem(flying.RUNS, "sampled", 48)
+    maps = []
+    for first in (16, 48):
+        monkeypatch.setitem(flying.FIRST, "sampled", first)
+        chunks = list(region(noisy))
+        maps.append([settling for chunk in chunks for settling in chunk["settling"]])
+    assert len(chunks) == 1
+    assert any(maps[0])
+    assert maps[0] == maps[1]
 
 
 # The slot: the last question is the one that is answered ------------------------------------------------------------

@@ -202,6 +202,55 @@ def test_a_flight_goes_on_in_the_laboratory(visit):
     expect_flight(page)
 
 
+def test_what_is_reset_or_taken_back_in_a_live_flight_is_shown_as_it_flies(visit):
+    """The sliders stand where they do once the server has flown the setting."""
+    plant = {"base": "rotors", "lag": 0.08, "wind": {"on_vehicle": [1.0, 0, 0]}}
+    law = {"name": "inverted", "gains": {"rod_damping": 1.5}}
+    page = visit("#" + json.dumps(OFFER["first"] | {"law": law, "plant": plant}))
+    able(page)
+    places = "() => [...document.querySelectorAll('.panel .slider output')].map((output) => output.textContent)"
+    first = page.evaluate(places)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.locator(".has-gains .reset").click()
+    page.locator(".has-plant .reset").click()
+    assert page.evaluate("flypend.live().on")
+    live = page.evaluate(places)
+    page.locator(".go").click()
+    shown(page)
+    assert live == page.evaluate(places) != first
+    page.keyboard.press("Control+z")
+    shown(page)
+    able(page)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().on")
+    page.keyboard.press("Control+z")
+    assert page.evaluate(places) == first
+
+
+def test_a_flight_goes_on_when_the_connection_is_back(visit):
+    """With the machine code that the page has: it asks for no other, and no worker is left behind."""
+    page = visit()
+    able(page)
+    page.evaluate("""() => {
+        const { send } = WebSocket.prototype;
+        WebSocket.prototype.send = function (text) {
+            window.socket = this;
+            window.asked?.push(JSON.parse(text).kind);
+            send.call(this, text);
+        };
+    }""")
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.evaluate("window.asked = [], socket.close()")
+    until(page, "() => asked.length > 0")
+    page.wait_for_timeout(100)  # all is asked at once
+    assert page.evaluate("asked") == ["fly"]
+    tick = page.evaluate("flypend.live().tick")
+    until(page, "tick => flypend.live().tick > tick + 100", tick)
+    assert len(page.workers) == 1
+
+
 @pytest.mark.slow  # test_lab.py flies that law, test_live_page.py its page, and the tests above poke others
 def test_the_learned_law_is_flown_poked_and_goes_on(visit):
     """Its network takes longer to compile than any other law: what is compiled here is at hand for the server."""
@@ -483,6 +532,26 @@ def test_the_map_shows_the_way_of_the_rod_against_gravity(visit, chapter):
     for mine, end in zip((way[0], way[-1]), (run.y[0], run.y[-1]), strict=True):
         upright = end if run.e3 == "up" else end * [1, -1, -1]
         np.testing.assert_allclose(mine, upright, atol=2e-5)
+
+
+def test_a_map_keeps_its_points_when_the_connection_is_back(visit):
+    """It is asked for again, from its first direction; each is counted once."""
+    page = visit("#" + json.dumps(setting_for_map()))
+    page.evaluate("""() => {
+        const { send } = WebSocket.prototype;
+        window.told = 0;
+        WebSocket.prototype.send = function (text) {
+            if (window.socket !== this) this.addEventListener("message", ({ data }) => told += data.includes('"map"'));
+            window.socket = this;
+            send.call(this, text);
+        };
+    }""")
+    page.get_by_role("button", name="Region of attraction").click()
+    until(page, "() => told > 0")
+    page.evaluate("window.told = 0, socket.close()")
+    until(page, "() => told > 1")
+    points = page.evaluate("flypend.map().points")
+    assert len({tuple(point["y"]) for point in points}) == len(points)
 
 
 def setting_for_map():

@@ -776,6 +776,19 @@ def test_an_address_is_taken_though_the_page_writes_its_own_at_that_moment(visit
     until(page, "() => flypend.setting().duration === 3.5")
 
 
+def test_a_link_that_comes_while_it_flies_live_is_shown_as_on_opening(visit, run):
+    page = visit(run)
+    page.evaluate("flypend.go(true)")
+    until(page, "() => flypend.live().tick > 20")
+    setting = page.evaluate("flypend.setting()")
+    start = setting["start"] | {"x": [5, 0, 0], "y": [1, 0, 0]}
+    pokes = [{"time": 1, "on": "bob", "velocity": [1, 0, 0]}]
+    go_to(page, setting | {"start": start, "pokes": pokes, "duration": 7})
+    assert page.evaluate("flypend.playing()")
+    page.evaluate(AT_REST)
+    assert_flies(page, run)
+
+
 @pytest.mark.parametrize("size", [(200, 150), (320, 240)])
 def test_a_tiny_window_shows_what_it_can(visit, run, size):
     page = visit(run, viewport=dict(zip(("width", "height"), size, strict=True)))

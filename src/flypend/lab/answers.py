@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -75,12 +76,12 @@ def _map(message: Any, own: OwnLaws, tell: Tell) -> Replies:
 
 
 def _engine(message: Any, own: OwnLaws, _: Tell) -> Replies:
-    """Yield machine code with which the page flies settings like this one; None if it cannot."""
-    try:
-        facts = engine_of(setting_of(message.get("setting"), own))
-    except InputError:
-        facts = None
-    yield {"kind": "engine", "key": message.get("key"), "engine": facts}
+    """Yield machine code with which the page flies settings like this one, and its sliders; None if it cannot."""
+    facts, shown = None, None
+    with suppress(InputError):
+        setting = setting_of(message.get("setting"), own)
+        facts, shown = engine_of(setting), sliders(setting)
+    yield {"kind": "engine", "key": message.get("key"), "engine": facts, "sliders": shown}
 
 
 # In the order in which a page needs them.

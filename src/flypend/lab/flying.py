@@ -200,8 +200,9 @@ def region(setting: Setting, tell: Tell = lambda: None) -> Iterator[dict[str, An
         y = rods[done : done + size]
         own = _starts(setting.start, y).in_frame(machine.law.e3)
         request = flight.replace(
-            law=machine.law, starts=own, gains=tuning, criterion=machine.criterion, tolerances=exact
-        )
+            law=machine.law, starts=own, gains=tuning, criterion=machine.criterion, tolerances=exact,
+            seed=(flight.seed or 0) + done,
+        )  # fmt: skip
         result = fly_many(request, workers=1)
         done += len(y)
         judged = zip(result.settling.tolist(), result.success, strict=True)

@@ -62,6 +62,8 @@ export class Hybrid {
 
   #reply(reply) {
     if (reply.kind === "engine") {
+      const { last } = this.link;
+      if (reply.number === last.get("engine")?.number) last.delete("engine"); // not asked for again: it may be in use by then
       keep(this.engines, reply.key, reply.engine && this.#made(reply));
       this.#name();
       this.told({ kind: "able" });
@@ -71,8 +73,8 @@ export class Hybrid {
     this.told(reply);
   }
 
-  #made({ engine, key }) {
-    return new Local({ engine, offer: { sliders: [], seed: 0 }, runs: [{}] }, (reply) => {
+  #made({ engine, key, sliders }) {
+    return new Local({ engine, offer: { sliders, seed: 0 }, runs: [{}] }, (reply) => {
       if (reply.kind === "flight") {
         if (reply.number === this.flying) this.resting = setTimeout(this.confirm, REST);
         this.told({ ...reply, kind: "preview" });
@@ -104,8 +106,9 @@ export class Hybrid {
   #name() {
     const { local, known } = this;
     if (!local) return;
+    const usual = Object.fromEntries(local.offer.sliders.map(({ path, value }) => [path, value]));
     local.record = known.record;
-    local.offer.sliders = known.sliders;
+    local.offer.sliders = known.sliders.map((facts) => ({ ...facts, value: usual[facts.path] }));
   }
 
   // A flight that goes on, which is this page's alone ---------------------------------------------------------------

@@ -36,7 +36,7 @@ export class Laboratory {
     this.pinned = data.runs;
     this.main = document.querySelector("main");
     this.main.classList.add("lab");
-    this.setting = new Setting(data.offer.first, () => this.changed());
+    this.setting = new Setting(data.offer.first, () => this.changed(), (setting) => this.#linked(setting));
     Object.assign(this, { asked: 0, shown: 0, clock: new Map(), times: [], tab: "flight" });
     this.#header();
     this.running = new Running(this);
@@ -203,6 +203,13 @@ export class Laboratory {
   repeat() {
     this.again = true;
     this.preset(this.setting.value);
+  }
+
+  /** Take the `setting` of another address; where a flight goes on, it is shown as on opening, with its start and pokes. */
+  #linked(setting) {
+    this.again = this.running.on;
+    if (this.again) this.preset(setting);
+    else this.setting.replace(setting);
   }
 
   /** Become a kiosk, over the whole screen where that is possible, or a laboratory again. */

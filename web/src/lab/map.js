@@ -37,9 +37,10 @@ export class Map {
     this.draw();
   }
 
-  add({ y, settling, cause, total }) {
+  add({ y, settling, cause, done, total }) {
     this.total = total;
-    y.forEach((direction, i) => this.points.push({ y: direction, settling: settling[i], cause: cause[i] }));
+    const first = done - y.length; // of a map that is asked for again when the line was cut, points that are there
+    y.forEach((direction, i) => (this.points[first + i] = { y: direction, settling: settling[i], cause: cause[i] }));
     // Points come faster than pictures are worth.
     this.due ??= setTimeout(() => requestAnimationFrame(() => this.draw()), this.points.length < total ? REDRAW : 0);
   }

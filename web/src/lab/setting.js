@@ -7,14 +7,17 @@ const PAUSE = 1500; // ms between two moves of a slider that are two changes
 const MOST = 200; // changes that can be taken back
 
 export class Setting {
-  /** `first` is what to begin with unless the address has a setting; `changed` is called with it after every change. */
-  constructor(first, changed) {
+  /**
+   * `first` is what to begin with unless the address has a setting; `changed` is called with it after every change, `linked` with
+   * what the address has later.
+   */
+  constructor(first, changed, linked) {
     Object.assign(this, { first, changed, value: read() ?? structuredClone(first), past: [], future: [] });
     this.unreadable = location.hash.length > 1 && !read();
     addEventListener("pagehide", () => this.keep());
     addEventListener("hashchange", ({ newURL }) => {
       const value = read(new URL(newURL).hash); // the address itself may have been written again meanwhile
-      if (value && JSON.stringify(value) !== JSON.stringify(this.value)) this.replace(value);
+      if (value && JSON.stringify(value) !== JSON.stringify(this.value)) linked(value);
     });
   }
 

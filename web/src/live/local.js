@@ -148,18 +148,12 @@ export class Local {
     this.#next();
   }
 
-  /** The sliders with the values of a setting. */
+  /** The sliders with the values of a setting; what it does not tell is as usual. */
   sliders(setting) {
     return this.offer.sliders.map((facts) => {
       const stored = facts.path.split(".").reduce((table, key) => table?.[key], setting);
-      return stored === undefined ? { ...facts, ...this.#usual(facts) } : { ...facts, value: read(facts.put, stored) };
+      return stored === undefined ? facts : { ...facts, value: read(facts.put, stored) };
     });
-  }
-
-  /** The value of a slider that a setting does not tell, where an earlier one may have: of a defect, that of its suite. */
-  #usual({ group, path, put }) {
-    const { defects, knobs } = this.facts;
-    return group === "defects" ? { value: read(put, knobs.defects[defects.indexOf(path.split(".").at(-1))]) } : {};
   }
 }
 

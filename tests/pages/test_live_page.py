@@ -729,6 +729,7 @@ BROKEN = {
     "another law": {"law": {"name": "lqr"}},
     "another vehicle": {"vehicle": {"base": "nayak2018"}},
     "another gain": {"law": {"gains": {"k_d": 1}}},
+    "a gain that the law refuses": {"law": {"gains": {"rod_damping": -5}}},
     "another rate": {"plant": {"rate": 50}},
     "a longer delay": {"plant": {"delay": 0.3}},
     "no lag": {"plant": {"lag": -1}},

@@ -731,6 +731,7 @@ BROKEN = {
     "another gain": {"law": {"gains": {"k_d": 1}}},
     "a gain that the law refuses": {"law": {"gains": {"rod_damping": -5}}},
     "another rate": {"plant": {"rate": 50}},
+    "knocks": {"plant": {"wind": {"knock_on_bob": 0.05, "knock_period": 1}}},
     "a longer delay": {"plant": {"delay": 0.3}},
     "no lag": {"plant": {"lag": -1}},
     "no limits": {"vehicle": {"rotor_limits": [3, 1]}},

@@ -1,5 +1,6 @@
 // From a setting of the page to what the simulation takes: gains, knobs of the plant, start, pokes.
 
+import { WIND } from "../lab/readable.js";
 import { clamp, dot, norm, unit } from "../numbers.js";
 
 const LONGEST = 600; // s of flight that a page holds
@@ -82,12 +83,17 @@ function plantBeyond({ lag, delay, noise, defects, wind: { gust_on_vehicle, gust
 }
 
 /** The first gain or number of a plant that a setting tells and machine code with such `gains` does not take; "" if it takes all. */
-export function unknown({ law, plant }, { gains }) {
-  const gain = Object.keys(law.gains ?? {}).find((name) => !gains.includes(name));
+export function unknown({ law, plant = {} }, { gains }) {
+  const other = (table = {}, known) => Object.keys(table).find((name) => !known.includes(name));
+  const gain = other(law.gains, gains);
   if (gain) return `law.gains.${gain}`;
-  const other = plant?.base !== "ideal" && Object.keys(plant ?? {}).find((name) => !PLANT.includes(name));
-  return other ? `plant.${other}` : "";
+  if (plant.base === "ideal") return "";
+  const force = other(plant.wind, Object.keys(WIND)), number = force ? `wind.${force}` : other(plant, PLANT);
+  return number ? `plant.${number}` : "";
 }
+
+/** As `unknown`, for machine code with gains that its law took from rotor limits. */
+export const untaken = (setting, facts) => (setting.vehicle?.rotor_limits ? "vehicle.rotor_limits" : unknown(setting, facts));
 
 /** Whether the rows of `R` are an orthonormal, right-handed frame. */
 function rotation([a, b, c]) {

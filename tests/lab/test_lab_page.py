@@ -2,6 +2,7 @@
 
 import json
 import re
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -152,6 +153,22 @@ def test_gains_from_which_a_law_computes_others_are_for_the_server(visit):
     page.locator(".has-gains .reset").click()
     shown(page)
     able(page)
+
+
+@pytest.mark.parametrize(
+    "plant", [{"rate": 100}, {"limits": False}, {"delay": 0.18}, {"wind": {"knock_on_bob": 0.03, "knock_period": 1.0}}]
+)
+def test_numbers_of_a_plant_that_its_machine_code_does_not_take_are_for_the_server(visit, plant):
+    page = visit()
+    able(page)
+    told = setting(page) | {"plant": {"base": "rotors", **plant}}
+    page.evaluate("hash => { location.hash = hash; }", quote(json.dumps(told)))
+    until(page, "() => document.querySelector('.go').disabled")
+    shown(page)
+    slider(page, "law.gains.rod_damping").fill("214")
+    shown(page)
+    assert not page.evaluate("flypend.timings().at(-1).here")
+    expect_flight(page)
 
 
 def test_a_start_that_is_not_told_in_full_is_completed(visit):

@@ -10,7 +10,7 @@ from typing import Any
 
 from flypend.errors import InputError
 from flypend.flight.kernels.stopping import StoppedError
-from flypend.flight.live import engine_facts, live_loop, tunable
+from flypend.flight.live import engine_facts, live_loop
 from flypend.flight.verdict import verdict
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
@@ -20,7 +20,7 @@ from flypend.lab.setting import Setting, setting_of
 from flypend.lab.tuning import Tell
 from flypend.laws import BoundLaw
 from flypend.pages import replay
-from flypend.pages.offers import plain, sliders_of
+from flypend.pages.offers import plain
 
 log = logging.getLogger(__name__)
 Replies = Iterator[dict[str, Any]]
@@ -90,12 +90,11 @@ ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {"fly": _flight, "
 def engine_of(setting: Setting) -> dict[str, Any] | None:
     """Return what a page needs to fly settings like `setting` by itself; None for one that only the server flies.
 
-    The page changes numbers of the plant and gains but those that are `fixed`: from these the law, which must be one of
-    the package, computes others in advance.
+    The page changes numbers of the plant, and gains but those from which the law, which must be one of the package,
+    computes others in advance.
     """
     law = setting.flight.law
     if setting.where or not isinstance(law, BoundLaw):
         return None
-    fixed = set(sliders_of(law)) - set(tunable(law))
     exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
-    return engine_facts(live_loop(setting.flight), exact) | {"fixed": sorted(fixed)}
+    return engine_facts(live_loop(setting.flight), exact)

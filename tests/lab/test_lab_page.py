@@ -2,6 +2,7 @@
 
 import json
 import re
+import tomllib
 from urllib.parse import quote
 
 import numpy as np
@@ -515,6 +516,7 @@ def test_the_export_is_the_flight(visit, tmp_path):
     page.locator(".starts").select_option("level")
     shown(page)
     page.get_by_role("button", name="TOML").click()
+    expect(page.locator(".export")).to_be_visible()
     path = tmp_path / "flight.toml"
     path.write_text(page.locator(".export textarea").input_value(), encoding="utf-8")
     run = fly_request(run_file(str(path)).flight)
@@ -523,7 +525,20 @@ def test_the_export_is_the_flight(visit, tmp_path):
         page.evaluate("t => flypend.seek(t)", float(run.t[i]))
         np.testing.assert_allclose(page.evaluate("flypend.pose(0).y"), run.y[i], atol=2e-5)
     page.get_by_role("button", name="Python", exact=True).click()
-    assert "fp.simulate(" in page.locator(".export textarea").input_value()
+    expect(page.locator(".export textarea")).to_have_value(re.compile(r"fp\.simulate\("))
+
+
+def test_the_export_of_a_flight_that_goes_on_is_of_the_setting_shown(visit):
+    page = visit()
+    able(page)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.get_by_role("button", name="TOML").click()
+    slider(page, "plant.lag").fill("200")
+    expect(page.locator(".export textarea")).to_have_value(re.compile("lag = "))
+    text = page.locator(".export textarea").input_value()
+    assert tomllib.loads(text)["plant"]["lag"] == setting(page)["plant"]["lag"]
+    assert page.evaluate("flypend.live().on")
 
 
 def test_what_cannot_be_flown_is_told_beside_its_control(visit):

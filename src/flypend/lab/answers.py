@@ -51,7 +51,7 @@ def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
 
 
 def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
-    """Yield the packed run, its verdict, the sliders, the start in numbers, and the exports."""
+    """Yield the packed run, its verdict, the sliders, and the start in numbers."""
     begun = time.perf_counter()
     setting = setting_of(message.get("setting"), own)
     run = fly(setting, tell)
@@ -62,10 +62,14 @@ def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
         "verdict": packed["verdict"],
         "sliders": sliders(setting),
         "start": plain(setting.start),
-        "toml": toml(setting),
-        "python": python(setting),
         "milliseconds": 1e3 * (time.perf_counter() - begun),
     }
+
+
+def _export(message: Any, own: OwnLaws, _: Tell) -> Replies:
+    """Yield the setting as a run file and as Python."""
+    setting = setting_of(message.get("setting"), own)
+    yield {"kind": "export", "toml": toml(setting), "python": python(setting)}
 
 
 def _map(message: Any, own: OwnLaws, tell: Tell) -> Replies:
@@ -84,7 +88,9 @@ def _engine(message: Any, own: OwnLaws, _: Tell) -> Replies:
 
 
 # In the order in which a page needs them.
-ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {"fly": _flight, "engine": _engine, "map": _map}
+ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {
+    "fly": _flight, "engine": _engine, "export": _export, "map": _map,
+}  # fmt: skip
 
 
 def engine_of(setting: Setting) -> dict[str, Any] | None:

@@ -2,6 +2,8 @@
 
 import json
 import re
+import tomllib
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -152,6 +154,22 @@ def test_gains_from_which_a_law_computes_others_are_for_the_server(visit):
     page.locator(".has-gains .reset").click()
     shown(page)
     able(page)
+
+
+@pytest.mark.parametrize(
+    "plant", [{"rate": 100}, {"limits": False}, {"delay": 0.18}, {"wind": {"knock_on_bob": 0.03, "knock_period": 1.0}}]
+)
+def test_numbers_of_a_plant_that_its_machine_code_does_not_take_are_for_the_server(visit, plant):
+    page = visit()
+    able(page)
+    told = setting(page) | {"plant": {"base": "rotors", **plant}}
+    page.evaluate("hash => { location.hash = hash; }", quote(json.dumps(told)))
+    until(page, "() => document.querySelector('.go').disabled")
+    shown(page)
+    slider(page, "law.gains.rod_damping").fill("214")
+    shown(page)
+    assert not page.evaluate("flypend.timings().at(-1).here")
+    expect_flight(page)
 
 
 def test_a_start_that_is_not_told_in_full_is_completed(visit):
@@ -567,6 +585,7 @@ def test_the_export_is_the_flight(visit, tmp_path):
     page.locator(".starts").select_option("level")
     shown(page)
     page.get_by_role("button", name="TOML").click()
+    expect(page.locator(".export")).to_be_visible()
     path = tmp_path / "flight.toml"
     path.write_text(page.locator(".export textarea").input_value(), encoding="utf-8")
     run = fly_request(run_file(str(path)).flight)
@@ -575,7 +594,20 @@ def test_the_export_is_the_flight(visit, tmp_path):
         page.evaluate("t => flypend.seek(t)", float(run.t[i]))
         np.testing.assert_allclose(page.evaluate("flypend.pose(0).y"), run.y[i], atol=2e-5)
     page.get_by_role("button", name="Python", exact=True).click()
-    assert "fp.simulate(" in page.locator(".export textarea").input_value()
+    expect(page.locator(".export textarea")).to_have_value(re.compile(r"fp\.simulate\("))
+
+
+def test_the_export_of_a_flight_that_goes_on_is_of_the_setting_shown(visit):
+    page = visit()
+    able(page)
+    page.locator(".go").click()
+    until(page, "() => flypend.live().tick > 20")
+    page.get_by_role("button", name="TOML").click()
+    slider(page, "plant.lag").fill("200")
+    expect(page.locator(".export textarea")).to_have_value(re.compile("lag = "))
+    text = page.locator(".export textarea").input_value()
+    assert tomllib.loads(text)["plant"]["lag"] == setting(page)["plant"]["lag"]
+    assert page.evaluate("flypend.live().on")
 
 
 def test_what_cannot_be_flown_is_told_beside_its_control(visit):

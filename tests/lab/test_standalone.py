@@ -157,10 +157,13 @@ def test_a_figure_takes_theme_and_letters_of_the_page_around_it(offline, chapter
     [
         ({"law": {"name": "repaired", "gains": {}}}, "repaired"),
         ({"law": {"name": "lqr", "gains": {"weight_position": 5}}}, "weight_position"),
+        ({"law": {"name": "inverted", "gains": {"rod_damping": -5}}}, "rod_damping"),
         ({"vehicle": {"base": "hehn2011", "mount": "hub"}}, "hub"),
         ({"vehicle": {"base": "hehn2011", "mount": "gimbal", "rotor_limits": [0.08, 2.5]}}, "rotor_limits"),
         ({"plant": {"base": "rotors", "sensors": "mocap"}}, "mocap"),
         ({"plant": {"base": "rotors", "rate": 100}}, "rate"),
+        ({"plant": {"base": "rotors", "wind": {"knock_on_bob": 0.05}}}, "knock_on_bob"),
+        ({"plant": {"base": "rotors", "wind": {"gust_on_bob": 0.1, "gust_time": 0.2}}}, "gust_time"),
     ],
 )
 def test_what_is_not_in_the_file_is_told(visit, field, lacking):

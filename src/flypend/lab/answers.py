@@ -11,7 +11,7 @@ from typing import Any
 
 from flypend.errors import InputError
 from flypend.flight.kernels.stopping import StoppedError
-from flypend.flight.live import engine_facts, live_loop, tunable
+from flypend.flight.live import engine_facts, live_loop
 from flypend.flight.verdict import verdict
 from flypend.lab.controls import sliders
 from flypend.lab.export import python, toml
@@ -21,7 +21,7 @@ from flypend.lab.setting import Setting, setting_of
 from flypend.lab.tuning import Tell
 from flypend.laws import BoundLaw
 from flypend.pages import replay
-from flypend.pages.offers import plain, sliders_of
+from flypend.pages.offers import plain
 
 log = logging.getLogger(__name__)
 Replies = Iterator[dict[str, Any]]
@@ -52,7 +52,7 @@ def refusal(error: InputError, number: Any = None) -> dict[str, Any]:
 
 
 def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
-    """Yield the packed run, its verdict, the sliders, the start in numbers, and the exports."""
+    """Yield the packed run, its verdict, the sliders, and the start in numbers."""
     begun = time.perf_counter()
     setting = setting_of(message.get("setting"), own)
     run = fly(setting, tell)
@@ -63,10 +63,14 @@ def _flight(message: Any, own: OwnLaws, tell: Tell) -> Replies:
         "verdict": packed["verdict"],
         "sliders": sliders(setting),
         "start": plain(setting.start),
-        "toml": toml(setting),
-        "python": python(setting),
         "milliseconds": 1e3 * (time.perf_counter() - begun),
     }
+
+
+def _export(message: Any, own: OwnLaws, _: Tell) -> Replies:
+    """Yield the setting as a run file and as Python."""
+    setting = setting_of(message.get("setting"), own)
+    yield {"kind": "export", "toml": toml(setting), "python": python(setting)}
 
 
 def _map(message: Any, own: OwnLaws, tell: Tell) -> Replies:
@@ -85,18 +89,19 @@ def _engine(message: Any, own: OwnLaws, _: Tell) -> Replies:
 
 
 # In the order in which a page needs them.
-ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {"fly": _flight, "engine": _engine, "map": _map}
+ANSWERS: dict[str, Callable[[Any, OwnLaws, Tell], Replies]] = {
+    "fly": _flight, "engine": _engine, "export": _export, "map": _map,
+}  # fmt: skip
 
 
 def engine_of(setting: Setting) -> dict[str, Any] | None:
     """Return what a page needs to fly settings like `setting` by itself; None for one that only the server flies.
 
-    The page changes numbers of the plant and gains but those that are `fixed`: from these the law, which must be one of
-    the package, computes others in advance.
+    The page changes numbers of the plant, and gains but those from which the law, which must be one of the package,
+    computes others in advance.
     """
     law = setting.flight.law
     if setting.where or not isinstance(law, BoundLaw):
         return None
-    fixed = set(sliders_of(law)) - set(tunable(law))
     exact = replace(setting.flight.tolerances, max_steps=MOST_STEPS)
-    return engine_facts(live_loop(setting.flight), exact) | {"fixed": sorted(fixed)}
+    return engine_facts(live_loop(setting.flight), exact)

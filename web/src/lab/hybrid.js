@@ -1,10 +1,10 @@
 // The engine of the laboratory: a worker with machine code shows a flight at once, the server confirms it and knows the rest.
 //
 // The server alone flies own laws, rotor limits (from which laws take gains), gains from which a law computes others in advance, a
-// delay that an estimator has to be told, and what a law may refuse.
+// delay that an estimator has to be told, numbers of a plant that are compiled, and what a law may refuse.
 
 import { keep, Local } from "../live/local.js";
-import { isWhole, refused } from "../live/request.js";
+import { beyond, isWhole, refused, untaken } from "../live/request.js";
 import { Link } from "./link.js";
 import { kind } from "./setting.js";
 
@@ -143,6 +143,6 @@ export class Hybrid {
   }
 }
 
-/** Whether numbers of a setting change what is compiled. */
-const rebuilt = ({ vehicle, law, plant }, { fixed }) =>
-  Boolean(vehicle?.rotor_limits || (plant?.sensors && plant.delay !== undefined) || fixed.some((name) => name in (law.gains ?? {})));
+/** Whether numbers of a setting change what is compiled, or are beyond what machine code with `facts` takes. */
+const rebuilt = (setting, facts) =>
+  Boolean((setting.plant?.sensors && setting.plant.delay !== undefined) || untaken(setting, facts) || beyond(setting, facts));

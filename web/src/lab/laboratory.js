@@ -306,6 +306,7 @@ export class Laboratory {
     if (reply.kind === "flight") this.#flight(reply);
     else if (reply.kind === "preview") this.#preview(reply);
     else if (reply.kind === "able") this.#able();
+    else if (reply.number === this.panel.asked) this.panel.texts(reply); // or an error, which has none
     else if (reply.kind === "map" && reply.number === this.mapped) this.disc.add(reply);
     else if (reply.kind === "compiling" && reply.number >= this.shown) this.#say("compiling…");
     else if (reply.kind === "error" && reply.number === this.asked) this.#error(reply);

@@ -175,7 +175,6 @@ export class Panel {
       button.addEventListener("click", () => {
         this.exported = this.exported === button.dataset.export ? null : button.dataset.export;
         this.#export();
-        if (this.exported) box.scrollIntoView({ block: "nearest" });
       });
     }
     box.querySelector(".copy").addEventListener("click", (event) => {
@@ -191,12 +190,20 @@ export class Panel {
     });
   }
 
+  /** Ask for the setting in the words that are chosen, if any are. */
   #export() {
-    const box = this.#find(".export");
-    box.hidden = !this.exported || !this.texts;
     for (const button of this.root.querySelectorAll("[data-export]")) button.setAttribute("aria-pressed", String(button.dataset.export === this.exported));
+    if (this.exported) this.asked = this.lab.link.ask("export", { setting: this.lab.setting.value });
+    else this.texts({});
+  }
+
+  /** Show the `texts` that were asked for, if there are any. */
+  texts(texts) {
+    const box = this.#find(".export"), text = texts[this.exported], opened = box.hidden;
+    box.hidden = !text;
     if (box.hidden) return;
-    box.querySelector("textarea").value = this.texts[this.exported];
+    box.querySelector("textarea").value = text;
+    if (opened) box.scrollIntoView({ block: "nearest" });
     box.querySelector(".save").download = this.exported === "toml" ? "flight.toml" : "flight.py";
   }
 
@@ -216,17 +223,16 @@ export class Panel {
       const heading = level > 1e-6 ? degrees(Math.atan2(y[1], y[0])) : this.rod[1].facts.value;
       [tilt, heading].forEach((angle, i) => this.rod[i].show({ ...this.rod[i].facts, value: angle }));
     }
+    if (this.exported) this.#export();
     const pokes = value.pokes ?? [];
     this.#find(".unpoke").hidden = pokes.length === 0 || this.lab.running.on;
     this.#find(".poke small").textContent = pokes.length ? `at ${pokes.map((poke) => poke.time.toFixed(1)).join(", ")} s` : "";
   }
 
   /** Show what the engine said with a flight. */
-  flight({ sliders, toml, python }) {
+  flight({ sliders }) {
     this.sliders(sliders);
     this.able(this.lab.running.able);
-    this.texts = { toml, python };
-    if (this.served) this.#export();
     this.complain("", "");
   }
 

@@ -10,7 +10,7 @@ const table = (known, other = () => true) => (value) => value !== null && typeof
 
 const vector = list(3), number = Number.isFinite, numbers = table({}, number);
 const whole = (value) => Number.isSafeInteger(value) && value >= 0;
-const WIND = { on_vehicle: vector, on_bob: vector, gust_on_vehicle: number, gust_on_bob: number };
+export const WIND = { on_vehicle: vector, on_bob: vector, gust_on_vehicle: number, gust_on_bob: number };
 const PARTS = {
   start: table({ x: vector, x_dot: vector, R: list(3, vector), omega: vector, y: vector, y_dot: vector, random: whole }),
   law: table({ name: is("string"), gains: numbers }),

@@ -1,5 +1,6 @@
 // From a setting of the page to what the simulation takes: gains, knobs of the plant, start, pokes.
 
+import { WIND } from "../lab/readable.js";
 import { clamp, dot, norm, unit } from "../numbers.js";
 
 const LONGEST = 600; // s of flight that a page holds
@@ -46,8 +47,8 @@ export function request(setting, facts, seed) {
 }
 
 /** Why a page cannot fly `setting`, which is a readable one (readable.js) with a start in numbers; "" if it can. */
-export function refused({ start, duration, pokes = [], plant, vehicle }, facts) {
-  const { masses, period } = facts;
+export function refused(setting, facts) {
+  const { start, duration, pokes = [] } = setting, { masses, period } = facts;
   const lacking = ORDER.find((name) => !start[name]);
   if (lacking) return `start.${lacking}: expected numbers, got nothing`;
   if (norm(start.y) < LEAST) return `start.y: expected a direction, got one of length ${norm(start.y)}`;
@@ -56,11 +57,24 @@ export function refused({ start, duration, pokes = [], plant, vehicle }, facts) 
   if (pokes.some(({ on }) => !Object.hasOwn(masses, on))) return `pokes: expected one of ${Object.keys(masses).join(", ")}`;
   if (pokes.some(({ time }, i) => (i ? time <= pokes[i - 1].time : time < 0))) return "pokes: expected increasing times";
   if (duration + (pokes.at(-1)?.time ?? 0) > LONGEST) return `duration: expected at most ${LONGEST} s of flight, pokes included`;
-  return facts.kind === "ideal" ? "" : beyond(plant, vehicle, facts.delay); // the ideal plant keeps numbers for later
+  return beyond(setting, facts);
+}
+
+/** Which gains or numbers of the plant of a setting are out of range; "" if none is. */
+export const beyond = ({ law, plant, vehicle }, facts) =>
+  gainBeyond(law.gains, facts) || (facts.kind === "ideal" ? "" : plantBeyond(plant, vehicle, facts.delay)); // the ideal plant keeps numbers for later
+
+/** Which gain is outside its bounds, of which the table of the law's gains tells those that it has; "" if none is. */
+function gainBeyond(given = {}, { gains, bounds }) {
+  const found = gains.findIndex((name, i) => given[name] <= bounds[i].above || given[name] < bounds[i].at_least || given[name] > bounds[i].at_most);
+  if (found < 0) return "";
+  const name = gains[found], value = given[name], { above, at_least: least, at_most: most } = bounds[found];
+  const expected = value > most ? `at most ${most}` : above === undefined ? `at least ${least}` : `more than ${above}`;
+  return `law.gains.${name}: expected ${expected}, got ${value}`;
 }
 
 /** Which numbers of a sampled plant are out of range, with delays up to `longest` (s); "" if none is. */
-function beyond({ lag, delay, noise, defects, wind: { gust_on_vehicle, gust_on_bob } = {} } = {}, { rotor_limits: [least, most] = [0, 1] } = {}, longest) {
+function plantBeyond({ lag, delay, noise, defects, wind: { gust_on_vehicle, gust_on_bob } = {} } = {}, { rotor_limits: [least, most] = [0, 1] } = {}, longest) {
   const sizes = { lag, delay, ...noise, ...defects, gust_on_vehicle, gust_on_bob };
   const negative = Object.keys(sizes).find((name) => sizes[name] < 0);
   if (negative) return `plant.${negative}: expected at least 0, got ${sizes[negative]}`;
@@ -69,12 +83,17 @@ function beyond({ lag, delay, noise, defects, wind: { gust_on_vehicle, gust_on_b
 }
 
 /** The first gain or number of a plant that a setting tells and machine code with such `gains` does not take; "" if it takes all. */
-export function unknown({ law, plant }, { gains }) {
-  const gain = Object.keys(law.gains ?? {}).find((name) => !gains.includes(name));
+export function unknown({ law, plant = {} }, { gains }) {
+  const other = (table = {}, known) => Object.keys(table).find((name) => !known.includes(name));
+  const gain = other(law.gains, gains);
   if (gain) return `law.gains.${gain}`;
-  const other = plant?.base !== "ideal" && Object.keys(plant ?? {}).find((name) => !PLANT.includes(name));
-  return other ? `plant.${other}` : "";
+  if (plant.base === "ideal") return "";
+  const force = other(plant.wind, Object.keys(WIND)), number = force ? `wind.${force}` : other(plant, PLANT);
+  return number ? `plant.${number}` : "";
 }
+
+/** As `unknown`, for machine code with gains that its law took from rotor limits. */
+export const untaken = (setting, facts) => (setting.vehicle?.rotor_limits ? "vehicle.rotor_limits" : unknown(setting, facts));
 
 /** Whether the rows of `R` are an orthonormal, right-handed frame. */
 function rotation([a, b, c]) {

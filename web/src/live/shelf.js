@@ -2,7 +2,7 @@
 
 import { kind } from "../lab/setting.js";
 import { keep, Local } from "./local.js";
-import { unknown } from "./request.js";
+import { untaken } from "./request.js";
 
 export class Shelf {
   /** `told` is called with every reply to a question that is still asked. */
@@ -64,6 +64,3 @@ export class Shelf {
     return this.local.sliders(setting);
   }
 }
-
-/** The first number of `setting` that machine code with `facts` does not take; "" if it takes all. */
-const untaken = (setting, facts) => (setting.vehicle?.rotor_limits ? "vehicle.rotor_limits" : unknown(setting, facts)); // laws take gains from limits

@@ -18,8 +18,8 @@ from tests.identification.test_rosbag import TOPICS, flight, write_bag
 TRUE = fp.vehicle("hehn2011").replace(rotor_lag=0.024)
 SCALE = 0.93
 PLANT = fp.Plant(
-    delay=0.0113, sag=0.05, spin_up=1.2, strength=(0.97, 1.02, 1.03, 0.98), wind=fp.Wind(gust_on_vehicle=0.1), air="all",
-    noise=fp.Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
+    delay=0.0113, sag=0.05, spin_up=1.2, strength=(0.97, 1.02, 1.03, 0.98), wind=fp.Wind(gust_on_vehicle=0.1),
+    air="all", noise=fp.Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
 )  # fmt: skip
 FLYING = PLANT.replace(strength=tuple(SCALE * np.array(PLANT.strength)))
 GUESS = TRUE.replace(

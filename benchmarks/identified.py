@@ -49,7 +49,7 @@ def around(true, rng):
     gust = rng.uniform(0.005, 0.04) * true.weight
     plant = fp.Plant(
         delay=rng.uniform(0, 0.02), sag=rng.uniform(0, 0.08), spin_up=rng.uniform(1, 1.4),
-        strength=tuple(1 + rng.uniform(-0.05, 0.05, 4)),
+        strength=tuple(1 + rng.uniform(-0.05, 0.05, 4)), air=() if true.air is None else true.air.active(),
         wind=fp.Wind(gust_on_vehicle=gust, gust_on_bob=gust / 5, gust_time=rng.uniform(0.5, 2)),
         noise=fp.Noise(x=1e-3, x_dot=3e-2, attitude=3.5e-3, omega=2e-2, y=3.5e-3),
     )  # fmt: skip

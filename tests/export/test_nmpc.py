@@ -232,6 +232,13 @@ def test_the_command_writes_all_or_nothing(tmp_path, monkeypatch, plan):
     assert [path.name for path in tmp_path.iterdir()] == ["README.md"]
 
 
+def test_the_command_removes_the_sensors_of_an_earlier_export(tmp_path):
+    for more in (["--sensors", "mocap"], []):
+        words = ["export-c", "--law", "corrected", "--no-check", "--out", str(tmp_path), *more]
+        cli.app(words, standalone_mode=False)
+        assert (tmp_path / "flypend_sensors.c").exists() == bool(more)
+
+
 def test_headers_of_one_precision_stand_beside_each_other_in_c_and_cpp(plan, tmp_path):
     for precision in ("double", "float"):
         fp.export_c(fp.laws.inverted(), HEHN, tmp_path / precision, precision=precision, check=False)

@@ -53,7 +53,7 @@ def export_c(
         with staging(out) as folder:
             if law == "nmpc":
                 fp.export_nmpc(fp.plan(machine, fp.State(y=(0, 0, -1))), folder, precision=kind)
-            fp.export_c(chosen, machine, folder, precision=kind, rate=rate, sensors=read, check=tested)
+            fp.export_c(chosen, machine, out, precision=kind, rate=rate, sensors=read, check=tested)
     for warning in said:
         say(f"flypend: warning: {warning.message}")
     if law == "nmpc":

@@ -8,7 +8,7 @@ import pytest
 
 import flypend as fp
 from flypend import geometry as geo
-from flypend.flight.metrics import Metrics, interval_over_starts, metrics, wilson
+from flypend.flight.metrics import Count, Metrics, interval_over_clusters, metrics, wilson
 from flypend.flight.outcome import Outcome
 from flypend.model import equations_of_motion
 
@@ -412,20 +412,33 @@ def test_the_interval_over_starts_covers_the_rate_of_all_cells(width):
     drawn = [np.sum(rng.random((40, 1)) < rates, axis=1) for _ in range(2000)]
     covered, as_independent = (
         np.mean([low <= truth <= high for low, high in ends])
-        for ends in ([interval_over_starts(k, runs) for k in drawn], [wilson(k.sum(), 1000) for k in drawn])
+        for ends in ([interval_over_clusters(k, runs) for k in drawn], [wilson(k.sum(), 1000) for k in drawn])
     )
     assert 0.93 < covered < 0.975
     assert as_independent < 0.7  # negative control
 
 
+@pytest.mark.parametrize("shape", [(0.2, 0.2), (1.0, 1.0), (9.0, 1.0), (200.0, 20.0)])
+@pytest.mark.parametrize("vehicles", [6, 8, 33])
+def test_the_interval_of_few_vehicles_holds_the_rate_of_all(vehicles, shape):
+    """Rates of vehicles from nearly all or none to nearly the same; 2,000 experiments know the share to 0.007."""
+    rng, truth = np.random.default_rng(6), shape[0] / sum(shape)
+    rates = rng.beta(*shape, (2000, vehicles))
+    drawn = [Count.together(Count(int(good), 60) for good in row) for row in rng.binomial(60, rates)]
+    held = [low <= truth <= high for low, high in (one.interval for one in drawn)]
+    assert np.mean(held) > 0.92
+    if shape[0] < 100:  # negative control: runs as independent
+        assert np.mean([low <= truth <= high for low, high in (wilson(*one[:2]) for one in drawn)]) < 0.7
+
+
 def test_the_interval_over_starts_is_wilson_s_where_each_flies_once_and_no_narrower_than_that_of_all_runs():
     once = np.arange(50) < 31
-    assert interval_over_starts(once, np.ones(50)) == pytest.approx(wilson(31, 50), abs=1e-12)
+    assert interval_over_clusters(once, np.ones(50)) == pytest.approx(wilson(31, 50), abs=1e-12)
     for rate in (0, 1):  # starts that all fail, or succeed, are no more than they are
-        assert interval_over_starts(np.full(30, 8 * rate), np.full(30, 8)) == pytest.approx(wilson(30 * rate, 30))
-    assert interval_over_starts(np.full(30, 4), np.full(30, 8)) == pytest.approx(wilson(120, 240))  # cells decide
-    few = interval_over_starts(np.array([8, 3, 0]), np.array([8, 4, 0]))  # of an unfinished store
-    assert few == interval_over_starts(np.array([8, 3]), np.array([8, 4]))
+        assert interval_over_clusters(np.full(30, 8 * rate), np.full(30, 8)) == pytest.approx(wilson(30 * rate, 30))
+    assert interval_over_clusters(np.full(30, 4), np.full(30, 8)) == pytest.approx(wilson(120, 240))  # cells decide
+    few = interval_over_clusters(np.array([8, 3, 0]), np.array([8, 4, 0]))  # of an unfinished store
+    assert few == interval_over_clusters(np.array([8, 3]), np.array([8, 4]))
 
 
 def test_a_run_without_samples_to_judge_is_refused_and_a_long_hold_is_not_late():

@@ -1,13 +1,17 @@
 """Vehicles drawn from bands: within them, by seed, and the law believes what is written."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import flypend as fp
 from flypend.errors import InputError
+from flypend.flight.metrics import wilson
 from flypend.flight.request import Flight
 from flypend.plants import Sampled
 from flypend.settings.runfile import plant_of
+from flypend.studies import bands
 from flypend.studies.bands import fly_within, worlds_within
 from flypend.studies.compare import files_of_failures
 
@@ -89,9 +93,32 @@ def test_each_world_flies_its_share_of_the_starts_with_the_noise_of_its_place():
         alone = fp.simulate_ensemble(NEAR, fp.laws.inverted(), starts[run : run + 1], 2.0, plant=world)
         np.testing.assert_array_equal(alone.final.packed()[0], shared.final.packed()[run])
     flight = Flight(vehicle=NEAR, law=fp.laws.inverted().bind(NEAR), starts=starts, duration=2.0, plant=plant)
-    again = fly_within(flight, 1)
-    assert len(again) == 9
-    np.testing.assert_array_equal(again.final.packed()[0], shared.final.packed()[0])  # both as written
+    drawn = fly_within(flight, 1)  # none of them as written
+    assert drawn.shares == (1, 1, 1, 1, 1, 1, 1, 2)
+    alone = fp.simulate_ensemble(NEAR, fp.laws.inverted(), starts[:1], 2.0, plant=worlds[1].replace(seed=7))
+    np.testing.assert_array_equal(alone.final.packed()[0], drawn.final.packed()[0])
+
+
+def test_the_interval_of_drawn_vehicles_holds_the_rate_of_all_vehicles_of_the_bands(monkeypatch):
+    """Success depends on the vehicle's mass and on chance. 400 checks know the share that holds it to 0.015."""
+    some = fp.simulate_ensemble(NEAR, fp.laws.inverted(), fp.random_starts(20, 1), 0.1)
+    rng, light = np.random.default_rng(4), NEAR.bands["mass"][0] / NEAR.mass
+    span = NEAR.bands["mass"][1] / NEAR.mass - light
+
+    def fly(flight):
+        place = (flight.plant.mismatch["mass"] - light) / span  # uniform in (0, 1)
+        return dataclasses.replace(some, success=rng.random(flight.runs) < 0.2 + 0.8 * place**2)
+
+    monkeypatch.setattr(bands, "fly_each", lambda parts, *_: {name: fly(part) for name, part in parts.items()})
+    flight = Flight(vehicle=NEAR, law=fp.laws.inverted().bind(NEAR), starts=fp.random_starts(160, 3), duration=2.0)
+    flown = [fly_within(flight, seed) for seed in range(400)]
+    rate = 0.2 + 0.8 / 3
+    held, as_independent = (
+        np.mean([low <= rate <= high for low, high in ends])
+        for ends in ([one.interval for one in flown], [wilson(int(one.success.sum()), len(one)) for one in flown])
+    )
+    assert held > 0.93
+    assert as_independent < 0.7  # negative control
 
 
 def test_a_failed_flight_names_the_world_in_which_it_failed():
@@ -114,7 +141,9 @@ def test_a_check_flies_what_is_drawn_beside_what_is_written(one_plan):
     wide = fp.vehicle("hehn2011").replace(bands={"thrust_scale": (0.3, 0.31)})
     found = fp.check(wide, runs=18, duration=6.0, margins=False, bands=True)
     assert found.envelope["random"] == "all"
-    assert found.rows()["drawn"]["successes"] == 2  # as written
-    assert any("drawn: 2 of 18" in warning for warning in found.warnings)
+    assert found.rows()["drawn"]["successes"] == 0  # that as written is not among them
+    assert any("drawn: 0 of 18" in warning for warning in found.warnings)
+    assert found.rows()["drawn"]["wilson_high"] == wilson(0, 8)[1]  # of eight vehicles, not of 18 flights
+    assert "drawn   none: 0 of 18 (0.0 to 32.4 %)" in repr(found)
     with pytest.raises(InputError, match=r"vehicle\.bands"):
         fp.check(fp.vehicle("hehn2011"), bands=True)

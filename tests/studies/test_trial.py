@@ -56,7 +56,7 @@ def test_the_sweeps_score_success_by_number_and_factor(calm):
     }  # fmt: skip
     for row in calm.sweeps.values():
         assert tuple(row) == (1.125,)
-        assert all(0 <= count <= runs == 8 for count, runs in row.values())
+        assert all(0 <= count.successes <= count.runs == 8 for count in row.values())
     lengths = calm.sweeps["rod_length"]
     plant = ROTORS.replace(mismatch={"rod_length": 1.125})
     starts = fp.random_starts(8, 1)

@@ -16,7 +16,7 @@ from flypend.flight.files import ARRAYS
 from flypend.flight.kernels import fly_all, has_kernel
 from flypend.flight.kernels.results import Progress
 from flypend.flight.labels import dataset, describe, state_variables, variable
-from flypend.flight.metrics import Metrics, judge, metrics, wilson
+from flypend.flight.metrics import Count, Metrics, judge, metrics
 from flypend.flight.request import SAMPLE_PERIOD, Flight, Tolerances, bound_to, check_batch, some_times
 from flypend.flight.sampled import nearest_ticks
 from flypend.flight.simulate import ENGINES, fly
@@ -60,6 +60,8 @@ class Ensemble:
         States (n, k) at these times, in the law's frame; NaN after the end of a run.
     wrenches : (n, k, 4), optional
         Thrust (N) and moment (N m) that act at these times, in the ideal plant with lag.
+    shares : tuple of int
+        Numbers of runs, in order, that flew through each of several plants; empty for one plant.
     """
 
     starts: State
@@ -83,6 +85,7 @@ class Ensemble:
     t: NDArray[np.float64] | None = None
     samples: State | None = None
     wrenches: NDArray[np.float64] | None = None
+    shares: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         """Return law, vehicle and success rate in one line."""
@@ -105,9 +108,20 @@ class Ensemble:
         return float(np.mean(self.success))
 
     @property
+    def count(self) -> Count:
+        """How many runs succeed, of each of the `shares`, too."""
+        if not self.shares:
+            return Count(int(np.sum(self.success)), len(self))
+        parts = np.split(self.success, np.cumsum(self.shares)[:-1])
+        return Count.together(Count(int(np.sum(part)), len(part)) for part in parts)
+
+    @property
     def interval(self) -> tuple[float, float]:
-        """Wilson interval of the success rate, 95 %, if runs are independent: none flies the start of another."""
-        return wilson(int(np.sum(self.success)), len(self))
+        """Wilson interval of the success rate, 95 %, if runs are independent: none flies the start of another.
+
+        With `shares` it is that for plants like these: runs through one plant depend on each other.
+        """
+        return self.count.interval
 
     def percentile(self, name: str, q: float) -> float:
         """Return percentile `q` of the field `name` over the runs where it is finite; NaN if there are none."""

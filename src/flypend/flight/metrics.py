@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import NormalDist
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -249,19 +250,56 @@ def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, 
     return float(low), float(high)
 
 
-def interval_over_starts(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[float, float]:
-    """Return the interval, at `confidence`, of a rate of `successes` out of `runs`, both (n,): those of each start.
+class Count(NamedTuple):
+    """How many of `runs` flights succeed."""
 
-    Runs from one start depend on each other. The variance of the rate over starts, which are clusters (Cochran 1977,
-    Sampling Techniques, ch. 9A), says how many independent runs would have it; the interval is Wilson's for that number
-    (Korn and Graubard 1998, Survey Methodology 24, 193-201). They are no fewer than the starts, and no more than the
-    runs. With one run per start this is `wilson`.
+    successes: int
+    runs: int
+    shares: tuple[Count, ...] = ()  # those of each vehicle, where several share the flights
+
+    @property
+    def rate(self) -> float:
+        """Share of the flights that succeed."""
+        return self.successes / self.runs
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson interval of the rate, 95 %; with `shares`, that for vehicles like these, each one a cluster."""
+        if len(self.shares) > 1:
+            return interval_over_clusters([one.successes for one in self.shares], [one.runs for one in self.shares])
+        return wilson(self.successes, self.runs)
+
+    @classmethod
+    def together(cls, shares: Iterable[Count]) -> Count:
+        """Return the count of all `shares`, one for each vehicle."""
+        found = tuple(shares)
+        return cls(sum(one.successes for one in found), sum(one.runs for one in found), found)
+
+    def describe(self) -> str:
+        """Return "48 of 50 (86.5 to 98.9 %)", with the `interval`."""
+        low, high = self.interval
+        return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
+
+
+def interval_over_clusters(successes: Any, runs: Any, confidence: float = 0.95) -> tuple[float, float]:
+    """Return the interval, at `confidence`, of a rate of `successes` out of `runs`, both (n,): those of each cluster.
+
+    Runs from one start, or with one drawn vehicle, depend on each other: they are a cluster. The variance of the rate
+    over clusters (Cochran 1977, Sampling Techniques, ch. 9A) says how many independent runs would have it; the interval
+    is Wilson's for that number (Korn and Graubard 1998, Survey Methodology 24, 193-201). They are no fewer than the
+    clusters, and no more than the runs. With one run per cluster this is `wilson`. Where few clusters fail nearly
+    always, and others hardly ever, a handful holds the rate of all less often than at `confidence`.
     """
     flown = np.asarray(runs, dtype=float)
-    starts, total = int(np.count_nonzero(flown)), float(np.sum(flown))
+    clusters, total = int(np.count_nonzero(flown)), float(np.sum(flown))
     rate = float(np.sum(successes)) / max(total, 1.0)
-    spread = float(np.sum((successes - rate * flown) ** 2)) * starts
-    known = rate * (1 - rate) * (starts - 1) * total**2
-    size = min(max(known / spread, starts), total) if spread > 0 else total if known > 0 else starts
+    spread = float(np.sum((successes - rate * flown) ** 2)) * clusters
+    known = rate * (1 - rate) * (clusters - 1) * total**2
+    # Few clusters know their variance badly: the quantile z of Wilson's interval stands for Student's t of so many
+    # degrees of freedom, here by its expansion (Abramowitz and Stegun 26.7.5).
+    z, freedom = NormalDist().inv_cdf((1 + confidence) / 2), max(clusters - 1, 1)
+    student = z + (z**3 + z) / (4 * freedom) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * freedom**2)
+    known *= (z / student) ** 2
+    size = min(max(known / spread, clusters), total) if spread > 0 else total if known > 0 else clusters
     low, high = wilson_bounds(rate * size, size, confidence)
     return float(low), float(high)

@@ -53,7 +53,7 @@ def trial_cells(trials: Mapping[str, Trial]) -> Cells:
     ]
     for name in dict.fromkeys(name for trial in trials.values() for name in trial.sweeps):
         cells = [trial.sweeps.get(name, {}) for trial in trials.values()]
-        rows.append([name, *("/".join(f"{100 * c / n:.0f}" for c, n in row.values()) for row in cells)])
+        rows.append([name, *("/".join(f"{100 * count.rate:.0f}" for count in row.values()) for row in cells)])
     rows.append(["mean of all sweeps", *(f"{100 * trial.robustness:.1f}" for trial in trials.values())])
     return [["% of trial and of sweeps ×0.75/0.875/1.125/1.25", *trials], *rows]
 

@@ -15,6 +15,7 @@ from flypend import plants
 from flypend.errors import InputError
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.feasibility import feasibility
+from flypend.flight.metrics import Count
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import inverted
@@ -22,7 +23,6 @@ from flypend.model import Vehicle
 from flypend.model.rod import stretch
 from flypend.plants import AnyPlant, Sampled
 from flypend.studies.check import Check
-from flypend.studies.margins import Count
 
 RUNS, DURATION = 100, 30.0  # flights of a changed vehicle, and seconds of each, as in a check
 # Factors of each number, from a small change to the largest that leaves the machine recognisable, and how to make it.
@@ -174,5 +174,4 @@ def _number(vehicle: Vehicle, name: str) -> str:
 
 
 def _describe(flown: Ensemble) -> str:
-    count = Count(int(flown.success.sum()), len(flown))
-    return f"{count.describe()}, {flown.percentile('excursion', 50):.3g} m off in the median"
+    return f"{flown.count.describe()}, {flown.percentile('excursion', 50):.3g} m off in the median"

@@ -33,11 +33,11 @@ def worlds_within(vehicle: Vehicle, plant: Sampled, seed: int, draws: int = DRAW
 def fly_within(
     flight: Flight, seed: int, workers: int | None = None, progress: Callable[[int, int], Any] = lambda *_: None
 ) -> Ensemble:
-    """Fly `flight`, whose starts are shared by the worlds that `worlds_within` draws from `seed`.
+    """Fly `flight`, whose starts are shared by the worlds that are drawn from `seed` as in `worlds_within`.
 
     `workers` as in `simulate_ensemble`; `progress` is called with (runs begun, all). Raises InputError without bands.
     """
-    worlds = list(worlds_within(flight.vehicle, as_sampled(flight.plant), seed).values())
+    _, *worlds = worlds_within(flight.vehicle, as_sampled(flight.plant), seed).values()
     parts = {str(place): part for place, part in enumerate(split_flight(flight, worlds))}
     begun = dict.fromkeys(parts, 0)
 

@@ -26,7 +26,7 @@ from flypend.plants.bands import check_bands
 from flypend.plants.tremor import too_noisy
 from flypend.studies.bands import fly_within
 from flypend.studies.compare import Progress, summary
-from flypend.studies.margins import Count, Margin, quantities, search
+from flypend.studies.margins import Margin, quantities, search
 
 # Random flights, directions of the other tasks, and seconds a flight: usually, and where flights take long, in MuJoCo
 # and for a law that is stepped in Python. And how many flights each value of a margin takes.
@@ -124,9 +124,8 @@ class Check:
         lines = [f"<Check of {self.law} on {self.vehicle.name}: {'can' if self.ok else 'cannot'} be flown"]
         lines += [f"  {line}" for line in (*self.reasons, *self.warnings, self.possible) if line]
         for name, row in self.rows().items():
-            count = Count(row["successes"], row["runs"]).describe()
             lines.append(
-                f"  {name:7} {self.envelope[name]}: {count}, "
+                f"  {name:7} {self.envelope[name]}: {self.tasks[name].count.describe()}, "
                 f"excursion {row['excursion_p50']:.3g}/{row['excursion_p95']:.3g} m"
             )
         if (catch := self.catch) is not None:

@@ -127,6 +127,7 @@ def join_ensembles(parts: Sequence[Ensemble]) -> Ensemble:
     changes: dict[str, Any] = {
         name: np.concatenate([part.columns[name] for part in parts]) for name in parts[0].columns
     }
+    changes["shares"] = tuple(map(len, parts))
     for name in ("starts", "final"):
         changes[name] = State.trusted(np.concatenate([getattr(part, name).packed() for part in parts]))
     return replace(parts[0], **changes)

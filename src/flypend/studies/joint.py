@@ -12,7 +12,7 @@ import numpy as np
 from flypend import errors, plants, signals
 from flypend.errors import InputError
 from flypend.flight.kernels import has_kernel
-from flypend.flight.metrics import wilson
+from flypend.flight.metrics import Count
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import AnyLaw, inverted
@@ -22,12 +22,12 @@ from flypend.plants.bands import world_of
 from flypend.plants.defects import CONSTANT, NEEDS, NUMBERS
 from flypend.plants.plant import LONGEST_DELAY, MOST_SAG
 from flypend.studies.compare import Progress
-from flypend.studies.margins import Count, count_of, fly_beside, for_each
+from flypend.studies.margins import count_of, fly_beside, for_each
 from flypend.studies.trial import is_up, knock_on
 
 # Half widths, relative, of the bands of a vehicle that has none: weighed and measured in haste.
 USUAL = {"mass": 0.2, "bob_mass": 0.2, "rod_length": 0.15, "thrust_scale": 0.15}
-NOT_FLOWN = ("rotor_limits", "rotor_drag", "latency")  # bands that `world_of` leaves out
+NOT_FLOWN = ("rotor_limits", "rotor_drag", "inflow", "latency")  # bands that `world_of` leaves out
 LIMITS = {"sag": MOST_SAG, "delay": LONGEST_DELAY}  # beyond which there is no plant
 JOINTS_OFF = float(np.radians(0.5))  # zeros of encoders, as the angles of the suite "laboratory"
 SCALES = (1.0, 2.0, 4.0)  # of all errors together, until success drops below LEAST_RATE
@@ -104,7 +104,7 @@ class Joint:
 
 
 def _row(count: Count) -> dict[str, Any]:
-    return {**count._asdict(), "wilson": list(wilson(*count))}
+    return {"successes": count.successes, "runs": count.runs, "wilson": list(count.interval)}
 
 
 class Errors:
@@ -310,9 +310,7 @@ def _fly_tasks(
         return found
 
     found = for_each(flight, fly, range(len(drawn)), partial(progress, "all errors at once"))
-    tasks = {
-        name: Count(*map(sum, zip(*(one[name] for one in found if name in one), strict=True))) for name in all_starts
-    }
+    tasks = {name: Count.together(one[name] for one in found if name in one) for name in all_starts}
     worst = min(range(len(drawn)), key=lambda place: found[place].get("random", Count(1, 1)).rate)
     return tasks, drawn[worst]
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
-from flypend.flight.metrics import wilson
+from flypend.flight.metrics import Count, wilson
 from flypend.flight.request import Flight
 from flypend.flight.tasks import LEAST_RATE
 from flypend.model import Vehicle
@@ -25,23 +25,6 @@ RESOLUTION, LEAST_STEP = 0.12, 1 / 16
 SEARCHES = 2  # searches at a time: while one compiles in Python, the other does in LLVM, or flies
 Item = TypeVar("Item")
 Found = TypeVar("Found")
-
-
-class Count(NamedTuple):
-    """How many of `runs` flights succeed."""
-
-    successes: int
-    runs: int
-
-    @property
-    def rate(self) -> float:
-        """Share of the flights that succeed."""
-        return self.successes / self.runs
-
-    def describe(self) -> str:
-        """Return "48 of 50 (86.5 to 98.9 %)", the Wilson interval of 95 %."""
-        low, high = wilson(*self)
-        return f"{self.successes} of {self.runs} ({100 * low:.1f} to {100 * high:.1f} %)"
 
 
 def for_each(
@@ -74,7 +57,7 @@ def fly_beside(flight: Flight) -> Ensemble:
 
 def count_of(flight: Flight) -> Count:
     """Return how many runs of `flight` succeed, flown by `fly_beside`."""
-    return Count(int(fly_beside(flight).success.sum()), flight.runs)
+    return fly_beside(flight).count
 
 
 @dataclass(frozen=True)

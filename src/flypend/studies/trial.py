@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from flypend import errors, plants, signals
 from flypend.flight.ensemble import Ensemble, fly_many
 from flypend.flight.kernels import has_kernel
-from flypend.flight.metrics import wilson
+from flypend.flight.metrics import Count
 from flypend.flight.request import Flight, bound_to
 from flypend.flight.tasks import LEAST_RATE, task_starts
 from flypend.laws import AnyLaw, inverted
 from flypend.model import Vehicle
 from flypend.plants import AnyPlant, Sampled, Wind
-from flypend.studies.margins import Count, count_of, for_each, mismatch
+from flypend.studies.margins import count_of, for_each, mismatch
 
 DURATION, KNOCKS = 60.0, 15  # s
 UP = 0.95  # the rod counts as up while its bob is higher than this share of its length
@@ -79,16 +79,19 @@ class Trial:
     def to_dict(self) -> dict[str, Any]:
         """Return uptimes and sweeps as plain numbers, lists and dicts, with Wilson intervals."""
         stands = Count(int(self.standing.sum()), len(self.uptime))
-        low, high = wilson(*stands)
+        low, high = stands.interval
         return {
             "vehicle": self.vehicle.to_dict(),
             "law": self.law,
             "knock": self.knock,
             "uptime": self.uptime.tolist(),
-            "standing": {**stands._asdict(), "wilson_low": low, "wilson_high": high},
+            "standing": {"successes": stands.successes, "runs": stands.runs, "wilson_low": low, "wilson_high": high},
             "robustness": self.robustness,
             "sweeps": {
-                name: [{"factor": factor, **count._asdict()} for factor, count in row.items()]
+                name: [
+                    {"factor": factor, "successes": count.successes, "runs": count.runs}
+                    for factor, count in row.items()
+                ]
                 for name, row in self.sweeps.items()
             },
         }

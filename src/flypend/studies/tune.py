@@ -18,7 +18,7 @@ from flypend.errors import InputError
 from flypend.files.reading import parse_json, read_bytes
 from flypend.files.schema import Field, check_arrays
 from flypend.flight.ensemble import fly_many
-from flypend.flight.metrics import wilson
+from flypend.flight.metrics import Count
 from flypend.laws import BoundLaw, Controller
 from flypend.model import State
 from flypend.model.state import SHAPES
@@ -305,7 +305,9 @@ class _Task:
         columns = self._fly(law, (), np.empty((1, 0)), runs, cube.REPORTED, workers)
         success = columns["success"]
         independent = self.study.sampling == "uniform"
-        low, high = wilson(int(success.sum()), runs) if independent else (None, None)
+        worlds = np.array_split(success[0], self.bands + 1)  # as `_fly` returns them
+        count = Count.together(Count(int(part.sum()), len(part)) for part in worlds)
+        low, high = count.interval if independent else (None, None)
         settled = columns["settling"][success]
         return {
             "gains": gains,

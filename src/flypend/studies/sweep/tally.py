@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from flypend.flight.metrics import interval_over_starts, wilson
+from flypend.flight.metrics import interval_over_clusters, wilson
 from flypend.studies.sweep.study import Study
 
 
@@ -48,5 +48,5 @@ class Tally:
             return f"95 % interval {100 * low:.4g} to {100 * high:.4g} %"
         if self.study.samples == 1:
             return "no interval from one start"
-        low, high = interval_over_starts(self._good, self._flown)
+        low, high = interval_over_clusters(self._good, self._flown)
         return f"95 % interval over {self.study.samples} starts {100 * low:.4g} to {100 * high:.4g} %"

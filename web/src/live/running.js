@@ -20,7 +20,8 @@ export class Running {
 
   /** Whether the page has machine code for the present setting. */
   get able() {
-    return Boolean(this.lab.link.facts);
+    const { link, setting: { value } } = this.lab;
+    return Boolean(link.facts) && !link.rebuilds(value) && !link.refusal(value);
   }
 
   /** Whether the flight can go on with `setting`. */
@@ -60,14 +61,19 @@ export class Running {
     lab.panel.fell("");
     this.change();
     clock.follow((elapsed, speed) => this.#drive(elapsed * speed));
-    lab.link.begin(lab.setting.value, Math.max(tick, 1), (piece) => this.#flown(piece));
+    lab.link.begin({ ...lab.setting.value, ...this.taken }, Math.max(tick, 1), (piece) => this.#flown(piece));
   }
 
-  /** Gains and knobs of the setting, for the next piece. */
+  /** Take gains and knobs of the setting for the next piece; what is refused is told, and what was before flies on. */
   change() {
-    const { link, setting, panel } = this.lab;
-    this.turned = turned(setting.value, link.facts, true);
-    panel.sliders(link.sliders(setting.value));
+    const { link, setting: { value }, panel } = this.lab, message = link.refusal(value);
+    panel.sliders(link.sliders(value));
+    if (message || this.refused) this.lab.refuse(message);
+    this.refused = message;
+    if (message) return;
+    const { law, plant, vehicle, origin } = structuredClone(value); // which the page goes on to change
+    this.taken = { law, plant, vehicle, origin };
+    this.turned = turned(this.taken, link.facts, true);
   }
 
   /** Hit a body now, so that it would have another `velocity` if it were free. */

@@ -27,7 +27,7 @@ from flypend.studies.trial import is_up, knock_on
 
 # Half widths, relative, of the bands of a vehicle that has none: weighed and measured in haste.
 USUAL = {"mass": 0.2, "bob_mass": 0.2, "rod_length": 0.15, "thrust_scale": 0.15}
-NOT_FLOWN = ("rotor_limits", "rotor_drag", "latency")  # bands that `world_of` leaves out
+NOT_FLOWN = ("rotor_limits", "rotor_drag", "inflow", "latency")  # bands that `world_of` leaves out
 LIMITS = {"sag": MOST_SAG, "delay": LONGEST_DELAY}  # beyond which there is no plant
 JOINTS_OFF = float(np.radians(0.5))  # zeros of encoders, as the angles of the suite "laboratory"
 SCALES = (1.0, 2.0, 4.0)  # of all errors together, until success drops below LEAST_RATE

@@ -30,7 +30,7 @@ STEP = 4e-3
 def case():
     """A tumbling state with gusts, and numbers of which none is zero."""
     rng = np.random.default_rng(3)
-    moving = np.r_[0.55, 0.06, 3.1e-3, 3.4e-3, 5e-3, 0.017, 3e-3, -2e-3, 1e-2, 0.04, 0.1, -0.2]
+    moving = np.r_[0.55, 0.06, 3.1e-3, 3.4e-3, 5e-3, 0.017, 3e-3, -2e-3, 1e-2, 0.04, 0.08, 0.1, -0.2]
     reading = np.r_[0.003, rng.normal(size=9) * 0.02]
     return fp.State.random(rng).packed(), rng.normal(size=6) * 0.2, rng.uniform(1, 2, 4), moving, reading
 
@@ -50,7 +50,7 @@ def test_the_step_is_that_of_the_plant(changes):
     s, gusts = fp.State.random(np.random.default_rng(1)).packed(), np.array([0.3, -0.2, 0.1, 0.02, -0.05, 0.03])
     forces = np.array([1.0, 1.3, 1.1, 1.4])
     known = np.r_[vehicle.rod_length, vehicle.bob_mass, np.diag(vehicle.inertia), vehicle.drag_ratio]
-    known = np.r_[known, vehicle.pivot_offset, np.zeros(3)]
+    known = np.r_[known, vehicle.pivot_offset, 0.0, vehicle.air.inflow, np.zeros(2)]
     after, *_ = move(s, gusts, np.zeros(LOCAL), forces, 0 * forces, 1e-3, 1.0, known)
     engine = make_engine(vehicle.replace(rotor_lag=0.0), fp.Plant(air=("inflow", "lift", "body_drag")))
     engine.reset(s, forces)
@@ -58,21 +58,26 @@ def test_the_step_is_that_of_the_plant(changes):
     assert np.abs(after - engine.packed).max() < 1e-9  # two integrators of order 4, over a millisecond
 
 
-def test_derivatives_of_a_step_are_those_of_its_differences(case):
+@pytest.mark.parametrize("h", [STEP, STEP / 10])
+def test_derivatives_of_a_step_are_those_of_its_differences(case, h):
+    """Those by numbers to first order: that by the inflow, which acts by ω, is 18 % off over the longer of the steps.
+
+    There ω changes by 0.1 rad/s; over the shorter it is within the bound that holds for all others over both.
+    """
     s, gusts, forces, moving, _ = case
     apart, move = local()
     step = moves(VEHICLE)
 
     def after(error=0.0, m=moving, f=forces):
         e = error + np.zeros(LOCAL)
-        return step(move(s, e[:ERROR]), gusts + e[ERROR:], np.zeros(LOCAL), f, 0 * f, STEP, 1.0, m)[0]
+        return step(move(s, e[:ERROR]), gusts + e[ERROR:], np.zeros(LOCAL), f, 0 * f, h, 1.0, m)[0]
 
     middle = after()
-    by = step(s, gusts, np.zeros(LOCAL), forces, 0 * forces, STEP, 1.0, moving)[2].reshape(-1, ERROR).T
+    by = step(s, gusts, np.zeros(LOCAL), forces, 0 * forces, h, 1.0, moving)[2].reshape(-1, ERROR).T
     A = np.zeros((LOCAL, LOCAL))
     A[:ERROR] = by[:, :LOCAL]
-    F = np.eye(LOCAL) + STEP * A + STEP**2 / 2 * A @ A
-    B = STEP * (np.eye(ERROR) + STEP / 2 * A[:ERROR, :ERROR]) @ by[:, LOCAL:]
+    F = np.eye(LOCAL) + h * A + h**2 / 2 * A @ A
+    B = h * (np.eye(ERROR) + h / 2 * A[:ERROR, :ERROR]) @ by[:, LOCAL:]
     rows = np.r_[0:12]  # the rod's are compared across it below
     for i in np.r_[0:12, 18:24]:
         d = 1e-5 * np.eye(LOCAL)[i]
@@ -84,7 +89,8 @@ def test_derivatives_of_a_step_are_those_of_its_differences(case):
         high, low = (after(m=moving + sign * d[:-4], f=forces + sign * d[-4:]) for sign in (1, -1))
         found = (apart(middle, high) - apart(middle, low)) / (2 * d[i])
         scale = np.abs(found).max()
-        assert np.abs(found[rows] - B[rows, i]).max() < 0.02 * scale, i  # first order in a step of h |A| = 0.1
+        most = 0.2 if h == STEP and i == places(MOVING)["inflow"].start else 0.02  # first order; h |A| = 0.1 at most
+        assert np.abs(found[rows] - B[rows, i]).max() < most * scale, i
         assert np.abs(across @ (found - B[:, i])[12:15]).max() < 0.02 * scale, i
 
 

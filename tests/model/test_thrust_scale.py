@@ -36,7 +36,10 @@ def test_a_law_that_knows_the_scale_flies_the_machine_that_has_it():
 
 def test_the_air_acts_on_the_force_that_is_there():
     machine = fp.vehicle("hehn2011").replace(thrust_scale=SCALE)
+    names = ("rotor_drag", "inflow")
+    machine = machine.replace(bands={name: (0.0, getattr(machine.air, name)) for name in names})
     air, commanded = machine.air, machine.commanded().air
+    assert {name: machine.commanded().bands[name][1] for name in names} == {n: getattr(commanded, n) for n in names}
     force, speed = 1.3, 2.0  # commanded, N; m/s
     true = air.rotor_drag * np.sqrt(SCALE * force) * speed
     assert commanded.rotor_drag * np.sqrt(force) * speed == pytest.approx(true / SCALE)

@@ -17,9 +17,10 @@ from flypend.errors import InputError
 from flypend.geometry import Numbers, Vector, vee
 from flypend.identification.filtering import GUST_TIME, Noises, Pass, Programs, run_filter
 from flypend.identification.log import GYRO, Log, grid_step, to_grid
-from flypend.identification.model import CHANNELS, MOVING, READING, moves, places, reads, sizes, split
+from flypend.identification.model import CHANNELS, MOVING, READING, ROTOR_AIR, moves, places, reads, sizes, split
 from flypend.identification.rotors import Forces, patterns, rotor_forces, rotor_slopes, rotor_table
 from flypend.model import Vehicle
+from flypend.model.air import Air
 
 Progress = Callable[[str, int, int], None] | None
 
@@ -55,7 +56,8 @@ NORMAL_975 = 1.96  # standard deviations from the middle of a band of 95 % to it
 NO_LAG = 1e-3  # of a band's upper end, in place of a lower one of 0, which a lag may have
 LAG, DELAY, SAG, PWM_CURVE = 0.04, 0.01, 0.03, 0.7  # where a search begins if the guess says nothing
 LEAST, MOST = {"delay": 0.0, "sag": 0.0, "curve": 0.0}, {"delay": 0.2, "sag": 0.25, "curve": 1.0}
-DRAG_TIME, WIND = 5.0, 0.03  # s in which drag stops a machine; steady wind over weight
+# s in which drag stops a machine, and inflow a climb: RotorPy's take 0.5 to 5; steady wind over weight.
+DRAG_TIME, INFLOW_TIME, WIND = 5.0, 1.0, 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,15 +99,19 @@ def search_from(vehicle: Vehicle, pwm: bool, accelerometer: bool) -> Search:
     """
     n = len(vehicle.rotor_spins)
     hover = vehicle.weight / n
-    drag = vehicle.weight / vehicle.gravity / DRAG_TIME / n / np.sqrt(hover)
-    known = 0.0 if vehicle.air is None else vehicle.air.rotor_drag
+    slowed = vehicle.weight / vehicle.gravity / n / np.sqrt(hover)  # N^½ s/m, in 1 s
+    air = vehicle.air or Air()
     given: dict[str, Any] = {
         "rod_length": vehicle.rod_length, "bob_mass": vehicle.bob_mass, "inertia": np.diag(vehicle.inertia),
-        "drag_ratio": vehicle.drag_ratio, "pivot_offset": vehicle.pivot_offset, "rotor_drag": known,
+        "drag_ratio": vehicle.drag_ratio, "pivot_offset": vehicle.pivot_offset,
+        **{name: getattr(air, name) for name in ROTOR_AIR},
         "lag": vehicle.rotor_lag or LAG, "spin_up": 1.0, "sag": SAG, "delay": DELAY,
         "curve": PWM_CURVE if pwm else 0.0, "scale": np.log(vehicle.thrust_scale),
     }  # fmt: skip
-    spreads: dict[str, Any] = {**RATIOS, **PLAIN, "rotor_drag": drag, "wind": WIND * vehicle.weight}
+    spreads: dict[str, Any] = {
+        **RATIOS, **PLAIN, "rotor_drag": slowed / DRAG_TIME, "inflow": slowed / INFLOW_TIME,
+        "wind": WIND * vehicle.weight,
+    }  # fmt: skip
     for name in spreads:
         if (field := FIELDS.get(name, name)) in (vehicle.bands or {}):
             low, high = (np.array(end) for end in vehicle.bands[field])

@@ -31,8 +31,12 @@ ERROR, GUST = 18, 6  # numbers of a local error of the state, and of the gusts
 LOCAL = ERROR + GUST
 ZERO = ca.SX.zeros(LOCAL)
 # What moves the machine, and what is read of it, in the order of the inputs `moving` and `reading`.
-MOVING = {"rod_length": 1, "bob_mass": 1, "inertia": 3, "drag_ratio": 1, "pivot_offset": 3, "rotor_drag": 1, "wind": 2}
+MOVING = {
+    "rod_length": 1, "bob_mass": 1, "inertia": 3, "drag_ratio": 1, "pivot_offset": 3, "rotor_drag": 1, "inflow": 1,
+    "wind": 2,
+}  # fmt: skip
 READING = {"latency": 1, "gyro_bias": 3, "force_bias": 3, "misalignment": 3}
+ROTOR_AIR = ("rotor_drag", "inflow")  # of `MOVING`, the coefficients of `Air`
 CHANNELS = {"position": 3, "attitude": 3, "gyro": 3, "force": 3, "rod": 3}
 
 
@@ -64,7 +68,7 @@ def machine(vehicle: Vehicle, moving: Numbers) -> Any:
         vehicle, bob_mass=v["bob_mass"], M=vehicle.mass + (1 - share) * v["bob_mass"], m=share * v["bob_mass"],
         l=v["rod_length"] / share, I=principal, I_inv=ca.inv_minor(principal), pivot_offset=v["pivot_offset"],
         drag_ratio=v["drag_ratio"], wind=v["wind"], rubs=False, rod_spin=0.0,
-        air=SimpleNamespace(**{**vars(vehicle.air or Air()), "rotor_drag": v["rotor_drag"]}, active=lambda: AIR),
+        air=SimpleNamespace(**vars(vehicle.air or Air()) | {name: v[name] for name in ROTOR_AIR}, active=lambda: AIR),
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from flypend import errors
 from flypend.identification.fit import FIELDS, Fit
-from flypend.identification.model import CHANNELS, places
+from flypend.identification.model import CHANNELS, ROTOR_AIR, places
 from flypend.identification.rotors import patterns
 from flypend.model import Vehicle
 from flypend.model.rod import stretch
@@ -19,7 +19,7 @@ from flypend.plants.plant import Plant
 T_975 = 2.05
 LEARNED = 0.5  # of the guess's standard deviation; a log that leaves more has told next to nothing
 # Numbers that are known but for the mass, as no log tells masses and forces apart.
-WITH_MASS = ("bob_mass", "inertia", "scale", "rotor_drag")
+WITH_MASS = ("bob_mass", "inertia", "scale", *ROTOR_AIR)
 WHITE = 0.1  # autocorrelation beyond which prediction errors are called coloured
 MORE = {
     "rod_length": "let the rod swing by 20° and more, once a few seconds",
@@ -32,6 +32,7 @@ MORE = {
     "sag": "climbs and drops at 1.5 and 0.6 of the hover thrust",
     "scale": "climbs and drops at 1.5 and 0.6 of the hover thrust",
     "rotor_drag": "a straight flight at 3 m/s, there and back",
+    "inflow": "climbs and drops at 1.5 and 0.6 of the hover thrust",
 }
 
 Band = tuple[Any, Any]
@@ -69,7 +70,7 @@ class Identified:
         """Return a page of text: every number with its band, what stays open, and how well the model fits."""
         fit, machine, lines = self._fit, self.vehicle, []
         found = fit.search.values(fit.theta) | vars(self.plant) | vars(machine) | {"inertia": np.diag(machine.inertia)}
-        found["rotor_drag"] = np.maximum(found["rotor_drag"], 0.0)
+        found |= {name: np.maximum(found[name], 0.0) for name in ROTOR_AIR}
         left = _left_open(fit)
         for name, ends in self.bands.items():
             # Strengths share their patterns: what leaves one of these open leaves all of them so.
@@ -134,14 +135,14 @@ def conclude(fit: Fit, guess: Vehicle, mass_error: float) -> Identified:
     spans: dict[str, Any] = {}
     for name, place in at.items():
         half = T_975 * errors[place]
-        # Of logarithms, but for the drag.
-        more = mass_error * (values[name] if name == "rotor_drag" else 1.0)
+        # Of logarithms, but for the air.
+        more = mass_error * (values[name] if name in ROTOR_AIR else 1.0)
         spans[name] = np.hypot(half, more) if name in WITH_MASS else half
     bands: dict[str, Band] = {"mass": (guess.mass * (1 - mass_error), guess.mass * (1 + mass_error))}
     for name in ("rod_length", "bob_mass", "inertia", "drag_ratio", "lag", "spin_up"):
         bands[FIELDS.get(name, name)] = _band(values[name] * np.exp(-spans[name]), values[name] * np.exp(spans[name]))
     bands["thrust_scale"] = _band(*(np.exp(values["scale"] + sign * spans["scale"]) for sign in (-1, 1)))
-    for name in ("pivot_offset", "rotor_drag", "sag", "delay", "latency"):
+    for name in ("pivot_offset", *ROTOR_AIR, "sag", "delay", "latency"):
         least = -np.inf if name in ("pivot_offset", "latency") else 0.0
         bands[name] = _band(*(np.maximum(values[name] + sign * spans[name], least) for sign in (-1, 1)))
     shares, basis = values["shares"], patterns(n)
@@ -177,7 +178,7 @@ def _machine(guess: Vehicle, values: dict[str, Any], bands: dict[str, Band]) -> 
     if np.any((guess.pivot_offset < low) | (guess.pivot_offset > high)):
         changes["pivot_offset"] = values["pivot_offset"]
     if guess.air is not None:
-        changes["air"] = {"rotor_drag": max(0.0, number["rotor_drag"])}
+        changes["air"] = {name: max(0.0, number[name]) for name in ROTOR_AIR}
     return guess.replace(**changes)
 
 

@@ -14,7 +14,7 @@ from flypend.errors import InputError
 # Beside the vehicle's own numbers, those of its rotors, radio and tracking that identification finds with them.
 BANDED = (
     "mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "rotor_lag", "spin_up", "thrust_scale", "pivot_offset",
-    "rotor_drag", "sag", "delay", "latency", "strength", "rotor_limits",
+    "rotor_drag", "inflow", "sag", "delay", "latency", "strength", "rotor_limits",
 )  # fmt: skip
 POSITIVE = ("mass", "bob_mass", "rod_length", "inertia", "drag_ratio", "spin_up", "thrust_scale", "strength")
 SIGNED = ("pivot_offset", "latency")

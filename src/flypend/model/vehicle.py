@@ -26,7 +26,7 @@ from flypend.model.table import on_base
 from flypend.model.urdf import model_sdf, model_urdf
 
 # By which power of s the bands shrink of a machine whose rotors push s times as hard as commanded.
-SCALED = {"mass": 1.0, "bob_mass": 1.0, "inertia": 1.0, "thrust_scale": 1.0, "rotor_drag": 0.5}
+SCALED = {"mass": 1.0, "bob_mass": 1.0, "inertia": 1.0, "thrust_scale": 1.0, "rotor_drag": 0.5, "inflow": 0.5}
 
 
 @errors.named_arguments

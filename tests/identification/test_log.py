@@ -79,6 +79,14 @@ def test_a_log_without_rotors_is_none():
         _check(columns, 0, "log", fractions=True)
 
 
+def test_the_origin_of_time_is_that_of_the_first_row():
+    """Of a clock that began in 1970, differences by a delay of 1e-6 s were rounded by a tenth of it."""
+    rows, late = table(), table()
+    for row in late[1:]:
+        row[0] = repr(float(row[0]) + 1.7e9)
+    assert parse_log(text(late)).t == pytest.approx(parse_log(text(rows)).t, abs=3e-7)  # of a double at 1.7e9
+
+
 def test_empty_cells_are_no_readings_and_commands_are_held():
     rows = table()
     for name in ("x", "qw", "rx", "u2"):

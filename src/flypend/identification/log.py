@@ -53,7 +53,7 @@ class Log:
     Parameters
     ----------
     t : (k,)
-        Time, s, increasing.
+        Time since the first row, s, increasing.
     position : (k, 3)
         The tracked point, world frame, m.
     rotation : (k, 3, 3)
@@ -206,6 +206,7 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
     """Return the log of `columns`, its times and cells checked. Raises InputError."""
     t = columns["t"]
     _check_times(t, field)
+    t = t - t[0]  # of a clock that began long ago, differences by the delay are rounded
     if rotors == 0:
         raise InputError(field, "commands of rotors", "none")
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)

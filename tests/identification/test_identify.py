@@ -154,6 +154,15 @@ def test_the_report_says_what_was_found_and_how_well(found):
     assert "NOT converged" not in said or found._fit.passes == 12
 
 
+def test_the_report_says_that_the_delay_ended_at_its_limit(found):
+    fit, theta = found._fit, found._fit.theta.copy()
+    theta[places(fit.search.table)["delay"]] = -1.0
+    late = conclude(replace(fit, theta=fit.search.clip(theta)), GUESS, 0.005)
+    assert late.delay == 0.0
+    assert "delay ended at 0" in late.report()
+    assert "delay ended at 0" not in found.report()
+
+
 def test_the_report_says_of_each_number_of_a_field_whether_the_log_tells_it(found):
     at, doubt = places(found._fit.search.table), np.array(found._fit.covariance)
     place = at["inertia"].stop - 1

@@ -7,7 +7,17 @@ from hypothesis import strategies as st
 
 from flypend.errors import InputError
 from flypend.geometry import rotation_from_quat_xyzw
-from flypend.identification.log import CRAZYFLIE, NEEDED, POSE, ROD, _check, _from_crazyflie, parse_log, read_log
+from flypend.identification.log import (
+    CRAZYFLIE,
+    NEEDED,
+    POSE,
+    ROD,
+    _check,
+    _from_crazyflie,
+    instants,
+    parse_log,
+    read_log,
+)
 
 NAMES = (*NEEDED, "ax", "ay", "az", "rx", "ry", "rz", "u1", "u2", "u3", "u4", "vbat")
 
@@ -77,6 +87,45 @@ def test_a_log_without_rotors_is_none():
     columns = {name: np.array([float(row[i]) for row in table()[1:]]) for i, name in enumerate(NAMES)}
     with pytest.raises(InputError, match=r"^log: expected commands of rotors, got none"):
         _check(columns, 0, "log", fractions=True)
+
+
+def test_the_origin_of_time_is_that_of_the_first_row():
+    """Of a clock that began in 1970, differences by a delay of 1e-6 s were rounded by a tenth of it."""
+    rows, late = table(), table()
+    for row in late[1:]:
+        row[0] = repr(float(row[0]) + 1.7e9)
+    assert parse_log(text(late)).t == pytest.approx(parse_log(text(rows)).t, abs=3e-7)  # of a double at 1.7e9
+
+
+@pytest.mark.parametrize("rate", [60.0, 240.0, 400.0])
+@pytest.mark.parametrize("dropped", [0.0, 0.1])
+def test_stamps_in_whole_milliseconds_are_of_even_readings(rate, dropped):
+    """Rows of 60 Hz are 16 or 17 ms apart: a grid of 17 ms leaves them by half a step."""
+    rows = table(rows=int(12 * rate), rate=rate)
+    even = instants(parse_log(text(rows)))
+    for row in rows[1:]:
+        row[0] = repr(round(float(row[0]), 3))
+    kept = np.random.default_rng(1).random(len(rows)) >= dropped
+    kept[:2] = kept[-1] = True
+    found = instants(parse_log(text([row for row, there in zip(rows, kept, strict=True) if there])))
+    assert len(found) == len(even)
+    assert np.abs(found - even).max() <= 1.1e-3  # half a millisecond at either end, and its share in a step
+
+
+def test_instants_are_those_of_the_gyro_among_rows_of_others():
+    """As of topics that each have their own times; poses come 1.3 ms after every third reading of the gyro."""
+    rows = table(rows=2400, rate=200.0)
+    names, gyro = rows[0], {NAMES.index(name) for name in ("gx", "gy", "gz")}
+    split = [names]
+    for k, row in enumerate(rows[1:]):
+        split.append([cell if i == 0 or i in gyro else "" for i, cell in enumerate(row)])
+        if k % 3 == 0:
+            later = [repr(float(row[0]) + 1.3e-3), *row[1:]]
+            split.append(["" if i in gyro else cell for i, cell in enumerate(later)])
+    found = instants(parse_log(text(split)))
+    read = np.array([float(row[0]) for row in rows[1:]])
+    assert np.abs(found - read[: len(found)]).max() < 1e-9
+    assert len(found) >= len(read)
 
 
 def test_empty_cells_are_no_readings_and_commands_are_held():

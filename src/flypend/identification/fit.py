@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 from flypend.errors import InputError
 from flypend.geometry import Numbers, Vector, vee
 from flypend.identification.filtering import GUST_TIME, Noises, Pass, Programs, run_filter
-from flypend.identification.log import GYRO, Log, grid_step, to_grid
+from flypend.identification.log import GYRO, Log, instants, to_grid
 from flypend.identification.model import CHANNELS, MOVING, READING, ROTOR_AIR, moves, places, reads, sizes, split
 from flypend.identification.rotors import Forces, patterns, rotor_forces, rotor_slopes, rotor_table
 from flypend.model import Vehicle
@@ -269,7 +269,7 @@ def _lost(begun: Pass, log: Log) -> InputError:
     """Return the error that names the first reading of `log` far from its prediction in the first pass, `begun`."""
     ratio = np.nan_to_num(np.abs(begun.errors) / begun.spreads, posinf=0.0)
     k, i = np.argwhere(ratio >= min(LOST, ratio.max()))[0]
-    row, channel = int(np.searchsorted(log.t, log.t[0] + k * grid_step(log))) + 2, list(CHANNELS)[i // 3]
+    row, channel = int(np.searchsorted(log.t, instants(log)[k])) + 2, list(CHANNELS)[i // 3]
     said = f"readings of {channel} that the equations of the vehicle can follow"
     return InputError(f"{log.name}, near row {row}", said, f"one {ratio[k, i]:.1g} standard deviations off")
 
@@ -290,7 +290,7 @@ def drop_wild(log: Log) -> Log:
 
 def first_noises(vehicle: Vehicle, log: Log) -> Noises:
     """Return the noises with which a search begins."""
-    step = grid_step(log)
+    step = float(np.diff(instants(log)[:2])[0])
     decay = float(np.exp(-step / GUST_TIME))
     gust = (GUST * vehicle.weight) ** 2 * (1 - decay**2)
     driving = [*(np.array(DRIVE) ** 2 * step), gust, gust * (ON_BOB * vehicle.bob_mass / vehicle.mass) ** 2]

@@ -53,7 +53,7 @@ class Log:
     Parameters
     ----------
     t : (k,)
-        Time, s, increasing.
+        Time since the first row, s, increasing.
     position : (k, 3)
         The tracked point, world frame, m.
     rotation : (k, 3, 3)
@@ -206,6 +206,7 @@ def _check(columns: dict[str, Any], rotors: int, field: str, *, fractions: bool)
     """Return the log of `columns`, its times and cells checked. Raises InputError."""
     t = columns["t"]
     _check_times(t, field)
+    t = t - t[0]  # of a clock that began long ago, differences by the delay are rounded
     if rotors == 0:
         raise InputError(field, "commands of rotors", "none")
     groups = {name: np.stack([columns.get(one, np.full(len(t), np.nan)) for one in names], axis=-1)
@@ -273,17 +274,24 @@ class Grid(NamedTuple):
     age: Numbers
 
 
-def grid_step(log: Log) -> float:
-    """Return the step of the grid, s: about `STEP`, of whole rows, so that none is far from its instant."""
-    apart = float(np.median(np.diff(log.t)))
-    return apart * max(1, int(STEP / apart + 0.2))
+def instants(log: Log) -> Any:
+    """Return the instants of the grid (k,), s, about `STEP` apart: each in the middle of whole readings of the gyro.
+
+    No other reading changes as fast. Its interval is told by all stamps, which may be rounded, and by none left out.
+    """
+    t = log.t[np.isfinite(log.gyro).all(axis=1)]
+    gaps = np.diff(t)
+    usual = gaps[gaps <= 1.5 * np.median(gaps)].mean()
+    apart = float((t[-1] - t[0]) / np.rint(gaps / usual).sum())
+    rows = max(STEP, float(np.median(np.diff(log.t))))
+    step = apart * max(1, int(STEP / apart + 0.2)) / max(1, int(apart / rows + 0.2))
+    return np.arange(t[0] + max(0.0, step - apart) / 2, log.t[-1] + step / 2, step)
 
 
 def to_grid(log: Log, latency: float) -> Grid:
     """Return `log` on the grid, with poses as old as `latency` (s) when they are written."""
-    step, apart = grid_step(log), float(np.median(np.diff(log.t)))
-    t = np.arange(log.t[0] + (step - apart) / 2, log.t[-1] + step / 2, step)  # in the middle of the rows of a step
-    rows = len(log.t)
+    t, rows = instants(log), len(log.t)
+    step = t[1] - t[0]
     streams = [log.position, log.rotation.reshape(rows, 9), log.gyro, log.force, log.rod]
     values, counts, age = np.zeros((len(t), 21)), np.zeros((len(t), 5)), np.zeros(len(t))
     begin = 0

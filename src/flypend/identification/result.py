@@ -91,6 +91,8 @@ class Identified:
                 lines.append(f"{name:16s} {rms:12.3g} {ratio:10.2f} {correlation:10.2f}{colour}")
         asked = dict.fromkeys(MORE[name] for name in MORE if FIELDS.get(name, name) in self.untold)
         lines += ["", f"{fit.passes} passes of the filter, {'converged' if self.converged else 'NOT converged'}"]
+        if found["delay"] <= 0.0:
+            lines.append("delay ended at 0: if commands are stamped later than they were sent, the lag is wrong")
         if fit.last.refused:
             lines.append(f"{fit.last.refused} readings left out, as they are far from their predictions")
         lines += [f"to tell more: {one}" for one in asked]

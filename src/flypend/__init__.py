@@ -12,7 +12,7 @@ from typing import Any
 
 from flypend.registry import LAWS
 
-__version__ = "0.3.5"
+__version__ = "0.3.6"
 
 _lines = [line.split() for line in __loader__.get_data(f"{__file__}i").decode().splitlines()]
 _MODULES = {words[3]: words[1] for words in _lines if words[:1] == ["from"] and words[1] != "flypend"}

@@ -35,25 +35,6 @@ def opened(offline, run, folder, address="", setting=None, **options):
     return page
 
 
-def posted(page):
-    """Return a function that tells the last of what the page has told its worker to fly on with."""
-    page.evaluate("""() => {
-        const { postMessage } = Worker.prototype;
-        Worker.prototype.postMessage = function (message) {
-            if (message.kind === "begin") window.begun = message.asked;
-            if (message.kind === "advance") window.advanced = message;
-            postMessage.call(this, message);
-        };
-    }""")
-
-    def last():
-        page.evaluate("() => delete window.advanced")
-        until(page, "() => window.advanced")
-        return page.evaluate("window.advanced")
-
-    return last
-
-
 def picture(page):
     """Pixels of the scene, once its next frame is drawn."""
     page.evaluate("flypend.screen(0)")

@@ -19,7 +19,7 @@ from flypend.lab.setting import setting_of
 from flypend.laws import inverted
 from flypend.model import vehicle
 from flypend.settings.runfile import run_file
-from tests.browser import posted, shown, until
+from tests.browser import shown, until
 
 OFFER = offer()
 WIDE, NARROW = {"width": 1000, "height": 620}, {"width": 390, "height": 844}
@@ -647,21 +647,6 @@ def test_what_a_law_refuses_is_shaded_on_its_slider(visit):
     assert page.locator("header > .verdict").inner_text() != "not flown"
     control.fill(str(int(4 * most) + 4))
     until(page, "document.querySelector('header > .verdict').textContent === 'not flown'")
-
-
-def test_what_a_law_refuses_while_it_flies_live_is_told_and_not_flown(visit):
-    page = visit()
-    able(page)
-    page.locator(".go").click()
-    last, control = posted(page), slider(page, "law.gains.rod_bandwidth")
-    assert last()["gains"].get("rod_bandwidth") is None
-    control.fill("399")
-    until(page, "() => document.querySelector('.complaint')")
-    assert "flies on as before" in page.locator(".notice").inner_text()
-    assert last()["gains"].get("rod_bandwidth") is None
-    control.fill("205")
-    until(page, "() => !document.querySelector('.complaint') && document.querySelector('.notice').hidden")
-    assert last()["gains"]["rod_bandwidth"] == setting(page)["law"]["gains"]["rod_bandwidth"]
 
 
 def test_changes_are_taken_back_and_made_again(visit):

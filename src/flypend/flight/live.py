@@ -27,7 +27,6 @@ from flypend.flight.touch import reason_of, touchable
 from flypend.flight.verdict import HANGS, MISSED, POSE, goal
 from flypend.laws import BoundLaw
 from flypend.laws.closed_loop import lyapunov_function
-from flypend.laws.inverted_gains import SEPARATED, SEPARATION, go_together
 from flypend.model import State
 from flypend.model.state import SIZE
 from flypend.pages.offers import (
@@ -147,8 +146,6 @@ def engine_facts(loop: Loop, exact: Tolerances, lanes: int = LANES) -> dict[str,
         "lanes": lanes, "state": SIZE, "rotors": len(true.rotor_spins),
         "gains": list(loop.parameters), "parameters": [float(law.gains[name]) for name in loop.parameters],
         "bounds": [law.table[name].bounds.limits() for name in loop.parameters],
-        # Gains that must be so many times others: all that laws of the package ask of gains beside each other.
-        "apart": [[*pair, SEPARATION] for pair in SEPARATED if law.check is go_together],
         "judge": max(1, round(SAMPLE_PERIOD / facts["period"])), "e3": law.e3, "rod": true.rod_length,
         "masses": {"bob": true.bob_mass, "vehicle": true.mass},
         "clear": true.mount != "gimbal",

@@ -251,11 +251,19 @@ def wilson(successes: int, runs: int, confidence: float = 0.95) -> tuple[float, 
 
 
 class Count(NamedTuple):
-    """How many of `runs` flights succeed."""
+    """How many flights succeed.
+
+    Parameters
+    ----------
+    successes, runs
+        Flights that succeed, and all.
+    shares
+        Those of each vehicle, where several share the flights.
+    """
 
     successes: int
     runs: int
-    shares: tuple[Count, ...] = ()  # those of each vehicle, where several share the flights
+    shares: tuple[Count, ...] = ()
 
     @property
     def rate(self) -> float:

@@ -17,8 +17,6 @@ from flypend.model import Vehicle
 
 # Bandwidth of a loop over that of the one around it: at least this, or the law refuses to be built.
 SEPARATION = 1.5
-# Each loop and the one around it.
-SEPARATED = (("attitude_bandwidth", "rod_bandwidth"), ("rod_bandwidth", "position_bandwidth"))
 # Attitude over rod bandwidth, at least, where the rotors' lag limits the attitude loop.
 LEAST_SEPARATION = 1.55
 # Attitude bandwidth over the rotors' cut-off 1/lag, at most.
@@ -267,13 +265,13 @@ GAINS = table(
 
 def go_together(gains: Mapping[str, Any]) -> None:
     """Raise InputError unless the bandwidths in `gains` are separated."""
-    for name, other in SEPARATED:
-        inner, outer = gains[name], gains[other]
+    slow, middle, fast = (gains[f"{loop}_bandwidth"] for loop in ("position", "rod", "attitude"))
+    for inner, outer, name, other in ((fast, middle, "attitude", "rod"), (middle, slow, "rod", "position")):
         if inner < SEPARATION * outer:
             raise InputError(
-                name,
-                f"at least {SEPARATION:g} times the {other}, {SEPARATION * outer:.3g} rad/s: raise it, or "
-                f"lower the {other} to {inner / SEPARATION:.3g} rad/s (default attitude_bandwidth falls with "
+                f"{name}_bandwidth",
+                f"at least {SEPARATION:g} times the {other}_bandwidth, {SEPARATION * outer:.3g} rad/s: raise it, or "
+                f"lower the {other}_bandwidth to {inner / SEPARATION:.3g} rad/s (default attitude_bandwidth falls with "
                 "the rotor_lag of the vehicle, default rod_bandwidth rises with √(gravity / rod_length))",
                 f"{inner:.3g} rad/s",
             )

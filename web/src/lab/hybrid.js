@@ -4,7 +4,7 @@
 // delay that an estimator has to be told, numbers of a plant that are compiled, and what a law may refuse.
 
 import { keep, Local } from "../live/local.js";
-import { beyond, gainBeyond, isWhole, refused, untaken } from "../live/request.js";
+import { beyond, isWhole, refused, untaken } from "../live/request.js";
 import { Link } from "./link.js";
 import { kind } from "./setting.js";
 
@@ -32,7 +32,7 @@ export class Hybrid {
   /** Fly `setting` here, if that is possible; whether it is. */
   #preview(number, setting) {
     const { local } = this;
-    if (!local || !isWhole(setting.start)) return false;
+    if (!local || !isWhole(setting.start) || !this.#allowed(setting)) return false;
     const whole = this.#whole(setting);
     if (refused(whole, local.facts)) return false; // the server has words for it
     local.ask("fly", { setting: whole }, number);
@@ -43,6 +43,14 @@ export class Hybrid {
   get local() {
     const found = this.known?.key === kind(this.asked) && this.engines.get(this.known.key);
     return found && !rebuilt(this.asked, found.facts) ? found : null;
+  }
+
+  /** Whether the law takes the gains beside each other, as far as the server has said. */
+  #allowed({ law }) {
+    return this.known.sliders.every(({ path, allowed }) => {
+      const value = law.gains?.[path.slice("law.gains.".length)];
+      return !allowed || value === undefined || (value >= allowed[0] && value <= allowed[1]);
+    });
   }
 
   /** `setting` with the gains that the server has proposed for what it does not tell. */
@@ -111,12 +119,7 @@ export class Hybrid {
 
   /** Whether `setting` has numbers that its machine code does not take. */
   rebuilds(setting) {
-    return !this.refusal(setting) && rebuilt(setting, this.facts);
-  }
-
-  /** Which gains of `setting` its law refuses; "" if it takes all. */
-  refusal(setting) {
-    return gainBeyond(setting.law.gains, this.facts);
+    return rebuilt(setting, this.facts);
   }
 
   begin(setting, tick, flown) {

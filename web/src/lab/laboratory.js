@@ -425,15 +425,8 @@ export class Laboratory {
     this.panel.setting(this.setting.value);
   }
 
-  /** Say why a flight that goes on does not take what has changed; "" takes it back. */
-  refuse(message) {
-    this.panel.complain(message, "", this.touched);
-    this.#notice(message && `${message}. It flies on as before.`, message ? ["Undo", () => this.setting.undo()] : []);
-  }
-
   #error({ number, field, message }) {
     this.shown = number;
-    this.#able();
     this.follow = false;
     this.#say("");
     this.panel.complain(message, field, this.touched);

@@ -4,7 +4,7 @@ import source from "worker:./worker.js";
 import { floats } from "../flight.js";
 import { kind as kindOf } from "../lab/setting.js";
 import { clamp } from "../numbers.js";
-import { allowed, packed, refused, request, unknown } from "./request.js";
+import { packed, refused, request, unknown } from "./request.js";
 import { judged } from "./verdict.js";
 
 const CHUNK = { least: 2, first: 8, most: 64, time: 50 }; // directions of a map that are flown at a time, ms that they may take
@@ -38,7 +38,7 @@ export class Local {
   ask(kind, content = {}, number = ++this.number) {
     this.mapping = null; // a map is of the setting that was
     if (kind === "stop") return number;
-    const setting = this.whole(content.setting), message = this.#foreign(setting) || this.refusal(setting);
+    const setting = this.whole(content.setting), message = this.#foreign(setting) || refused(setting, this.facts);
     if (message) queueMicrotask(() => this.told({ kind: "error", number, field: "", message }));
     else if (kind === "fly") {
       this.waiting = { number, setting };
@@ -91,14 +91,9 @@ export class Local {
     this.worker.postMessage({ kind: "begin", number: this.begun, asked: request(this.whole(setting), this.facts, this.offer.seed), until: tick });
   }
 
-  /** Whether `setting` has what its machine code does not take: of another page. */
-  rebuilds(setting) {
-    return Boolean(this.#foreign(setting));
-  }
-
-  /** Why `setting` cannot be flown, although its machine code takes what it has; "" if it can. */
-  refusal(setting) {
-    return refused(this.whole(setting), this.facts);
+  /** Whether `setting` has numbers that its machine code does not take: none that the page offers. */
+  rebuilds() {
+    return false;
   }
 
   /** Fly it on: `ticks`, gains, knobs, pokes and pull as the worker takes them. */
@@ -156,9 +151,8 @@ export class Local {
   /** The sliders with the values of a setting; what it does not tell is as usual. */
   sliders(setting) {
     return this.offer.sliders.map((facts) => {
-      const { path, low, high } = facts, stored = path.split(".").reduce((table, key) => table?.[key], setting);
-      const range = this.facts.apart.length && facts.allowed && { allowed: allowed(path.slice("law.gains.".length), [low, high], setting.law.gains, this.facts) };
-      return { ...facts, ...range, ...(stored !== undefined && { value: read(facts.put, stored) }) };
+      const stored = facts.path.split(".").reduce((table, key) => table?.[key], setting);
+      return stored === undefined ? facts : { ...facts, value: read(facts.put, stored) };
     });
   }
 }

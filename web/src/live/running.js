@@ -20,8 +20,7 @@ export class Running {
 
   /** Whether the page has machine code for the present setting. */
   get able() {
-    const { link, setting: { value } } = this.lab;
-    return Boolean(link.facts) && !link.rebuilds(value) && !link.refusal(value);
+    return Boolean(this.lab.link.facts);
   }
 
   /** Whether the flight can go on with `setting`. */
@@ -61,19 +60,14 @@ export class Running {
     lab.panel.fell("");
     this.change();
     clock.follow((elapsed, speed) => this.#drive(elapsed * speed));
-    lab.link.begin({ ...lab.setting.value, ...this.taken }, Math.max(tick, 1), (piece) => this.#flown(piece));
+    lab.link.begin(lab.setting.value, Math.max(tick, 1), (piece) => this.#flown(piece));
   }
 
-  /** Take gains and knobs of the setting for the next piece; what is refused is told, and what was before flies on. */
+  /** Gains and knobs of the setting, for the next piece. */
   change() {
-    const { link, setting: { value }, panel } = this.lab, message = link.refusal(value);
-    panel.sliders(link.sliders(value));
-    if (message || this.refused) this.lab.refuse(message);
-    this.refused = message;
-    if (message) return;
-    const { law, plant, vehicle, origin } = structuredClone(value); // which the page goes on to change
-    this.taken = { law, plant, vehicle, origin };
-    this.turned = turned(this.taken, link.facts, true);
+    const { link, setting, panel } = this.lab;
+    this.turned = turned(setting.value, link.facts, true);
+    panel.sliders(link.sliders(setting.value));
   }
 
   /** Hit a body now, so that it would have another `velocity` if it were free. */

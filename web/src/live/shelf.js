@@ -44,10 +44,6 @@ export class Shelf {
     return Boolean(untaken(setting, this.facts));
   }
 
-  refusal(setting) {
-    return this.local.refusal(setting);
-  }
-
   begin(setting, tick, flown) {
     this.local.begin(setting, tick, flown);
   }

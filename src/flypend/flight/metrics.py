@@ -283,6 +283,10 @@ class Count(NamedTuple):
         found = tuple(shares)
         return cls(sum(one.successes for one in found), sum(one.runs for one in found), found)
 
+    def to_dict(self) -> dict[str, int]:
+        """Return successes and runs by name."""
+        return {"successes": self.successes, "runs": self.runs}
+
     def describe(self) -> str:
         """Return "48 of 50 (86.5 to 98.9 %)", with the `interval`."""
         low, high = self.interval

@@ -104,7 +104,7 @@ class Joint:
 
 
 def _row(count: Count) -> dict[str, Any]:
-    return {"successes": count.successes, "runs": count.runs, "wilson": list(count.interval)}
+    return {**count.to_dict(), "wilson": list(count.interval)}
 
 
 class Errors:

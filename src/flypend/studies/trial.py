@@ -85,13 +85,10 @@ class Trial:
             "law": self.law,
             "knock": self.knock,
             "uptime": self.uptime.tolist(),
-            "standing": {"successes": stands.successes, "runs": stands.runs, "wilson_low": low, "wilson_high": high},
+            "standing": {**stands.to_dict(), "wilson_low": low, "wilson_high": high},
             "robustness": self.robustness,
             "sweeps": {
-                name: [
-                    {"factor": factor, "successes": count.successes, "runs": count.runs}
-                    for factor, count in row.items()
-                ]
+                name: [{"factor": factor, **count.to_dict()} for factor, count in row.items()]
                 for name, row in self.sweeps.items()
             },
         }

@@ -51,7 +51,7 @@ def test_workers_of_a_dask_cluster_in_processes_of_their_own_write_the_same_byte
 
     with LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, protocol="tcp", host="127.0.0.1",
-        dashboard_address=None, memory_limit=0, silence_logs=50,
+        dashboard_address="127.0.0.1:0", memory_limit=0, silence_logs=50,
     ) as cluster:  # fmt: skip
         fp.sweep(STUDY, tmp_path / "a.zarr", scheduler=cluster.scheduler_address)
     assert columns(tmp_path / "a.zarr") == alone

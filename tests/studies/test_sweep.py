@@ -209,7 +209,7 @@ def test_a_sweep_flies_on_a_cluster_that_is_there(tmp_path):
     told = []
     with LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, protocol="tcp", host="127.0.0.1",
-        dashboard_address=None, memory_limit=0, silence_logs=50,
+        dashboard_address="127.0.0.1:0", memory_limit=0, silence_logs=50,
     ) as cluster:  # fmt: skip
         address = cluster.scheduler_address
         fp.sweep(SHORT, tmp_path / "there.zarr", scheduler=address, progress=lambda *now: told.append(now))
@@ -518,7 +518,7 @@ def test_a_cluster_that_is_lost_is_told_and_the_store_goes_on(tmp_path, uninterr
     path = tmp_path / "b.zarr"
     with LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, protocol="tcp", host="127.0.0.1",
-        dashboard_address=None, memory_limit=0, silence_logs=50,
+        dashboard_address="127.0.0.1:0", memory_limit=0, silence_logs=50,
     ) as cluster:  # fmt: skip
 
         def tell(done, total):
